@@ -1,54 +1,21 @@
 //! A plane mesh: points, cells, and the named groups that the whole interface to the user is made of.
 
-/// The cell shapes the solver knows; nodes in Gmsh's order (corners anticlockwise, then mid-sides).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Shape {
-    Point,
-    Line2,
-    Line3,
-    Tri3,
-    Quad4,
-    Tri6,
-    Quad8,
-}
+use crate::{Error, Result};
 
-impl Shape {
-    pub fn node_count(self) -> usize {
-        match self {
-            Shape::Point => 1,
-            Shape::Line2 => 2,
-            Shape::Line3 | Shape::Tri3 => 3,
-            Shape::Quad4 => 4,
-            Shape::Tri6 => 6,
-            Shape::Quad8 => 8,
-        }
-    }
-
-    pub fn corner_count(self) -> usize {
-        match self {
-            Shape::Point => 1,
-            Shape::Line2 | Shape::Line3 => 2,
-            Shape::Tri3 | Shape::Tri6 => 3,
-            Shape::Quad4 | Shape::Quad8 => 4,
-        }
-    }
-
-    /// 0 point, 1 line, 2 face.
-    pub fn dimension(self) -> usize {
-        match self {
-            Shape::Point => 0,
-            Shape::Line2 | Shape::Line3 => 1,
-            _ => 2,
-        }
-    }
-}
+pub use crate::physics::shape::Shape;
 
 /// One cell: a point, a line or a face of the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
     pub shape: Shape,
-    /// indices into [`Mesh::points`], `shape.node_count()` of them; faces run anticlockwise
+    /// indices into [`Mesh::points`], `shape.node_count()` of them; faces run anticlockwise, a line's direction means nothing
     pub nodes: Vec<usize>,
+}
+
+impl Cell {
+    pub fn corners(&self) -> &[usize] {
+        &self.nodes[..self.shape.corner_count()]
+    }
 }
 
 /// A physical group: its name and its members, all of one dimension.
@@ -57,18 +24,117 @@ pub struct Group {
     pub name: String,
     /// 0 point, 1 line, 2 face
     pub dimension: usize,
-    /// indices into [`Mesh::cells`], ascending
+    /// indices into [`Mesh::cells`], ascending; empty if the file names a group that has no elements
     pub cells: Vec<usize>,
 }
 
 /// Points in metres, in the plane; every cell stands once however many groups it belongs to.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
+    /// the file's name, for messages: `twin_pipes.msh`
+    pub name: String,
     pub points: Vec<[f64; 2]>,
     /// the node's tag in the file, for messages
     pub tags: Vec<usize>,
+    /// all faces of the file, and the lines and points that belong to a group
     pub cells: Vec<Cell>,
+    /// by dimension, then name; names are unique
     pub groups: Vec<Group>,
     /// faces that ran clockwise in the file and were turned
     pub turned: usize,
 }
+
+impl Mesh {
+    /// The group of that name, with at least one cell.
+    ///
+    /// Errors: there is none (the sentence lists those that exist), or it is empty.
+    pub fn group(&self, name: &str) -> Result<&Group> {
+        match self.groups.iter().find(|g| g.name == name) {
+            Some(group) if group.cells.is_empty() => {
+                Err(Error::input(format!("the physical group \"{name}\" in {} has no elements", self.name)))
+            }
+            Some(group) => Ok(group),
+            None => Err(Error::input(format!(
+                "no physical group \"{name}\" in {}; it has: {}",
+                self.name,
+                self.group_names()
+            ))),
+        }
+    }
+
+    fn group_names(&self) -> String {
+        let mut names: Vec<&str> = self.groups.iter().map(|g| g.name.as_str()).collect();
+        names.sort_unstable();
+        match names.is_empty() {
+            true => "no groups at all".into(),
+            false => names.join(", "),
+        }
+    }
+
+    /// The nodes of the group's cells, mid-side nodes too, each once, ascending.
+    pub fn nodes_of(&self, group: &Group) -> Vec<usize> {
+        let mut nodes: Vec<usize> = group.cells.iter().flat_map(|&c| self.cells[c].nodes.iter().copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// Number of a group's points, or its length [m], or its area [m^2].
+    pub fn measure_of(&self, group: &Group) -> f64 {
+        group.cells.iter().map(|&c| self.measure(&self.cells[c])).sum()
+    }
+
+    /// 1 for a point, a line's length [m], a face's area [m^2] (negative if it runs clockwise); curved sides count.
+    pub fn measure(&self, cell: &Cell) -> f64 {
+        match cell.shape.dimension() {
+            0 => 1.0,
+            1 => self.length(cell),
+            _ => self.area(cell),
+        }
+    }
+
+    /// Length: of the chord, or of the parabola x(s) = a + s (4m - 3a - b) + s^2 (2a + 2b - 4m) by 5 Gauss points.
+    fn length(&self, cell: &Cell) -> f64 {
+        let [a, b] = [self.points[cell.nodes[0]], self.points[cell.nodes[1]]];
+        let Some(&mid) = cell.nodes.get(2) else {
+            return (b[0] - a[0]).hypot(b[1] - a[1]);
+        };
+        let m = self.points[mid];
+        let slope = |i: usize, s: f64| 4.0 * m[i] - 3.0 * a[i] - b[i] + 4.0 * s * (a[i] + b[i] - 2.0 * m[i]);
+        GAUSS_5.iter().map(|&(s, weight)| weight * slope(0, s).hypot(slope(1, s))).sum()
+    }
+
+    /// Area by Green's theorem, 1/2 closed integral of (x dy - y dx): a straight side a-b gives 1/2 a x b,
+    /// a parabola through its mid-side node m gives 1/6 (4 a x m + 4 m x b - a x b).
+    fn area(&self, cell: &Cell) -> f64 {
+        let corners = cell.shape.corner_count();
+        let [x0, y0] = self.points[cell.nodes[0]];
+        let at = |i: usize| [self.points[cell.nodes[i]][0] - x0, self.points[cell.nodes[i]][1] - y0];
+        let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+        let side = |i: usize| {
+            let (a, b) = (at(i), at((i + 1) % corners));
+            if cell.nodes.len() == corners {
+                return cross(a, b) / 2.0;
+            }
+            let m = at(corners + i);
+            (4.0 * cross(a, m) + 4.0 * cross(m, b) - cross(a, b)) / 6.0
+        };
+        (0..corners).map(side).sum()
+    }
+
+    /// The mean of the cell's corners [m].
+    pub fn centroid(&self, cell: &Cell) -> [f64; 2] {
+        let corners = cell.corners();
+        let mean = |i: usize| corners.iter().map(|&n| self.points[n][i]).sum::<f64>() / corners.len() as f64;
+        [mean(0), mean(1)]
+    }
+}
+
+/// (point, weight) on 0..1.
+const GAUSS_5: [(f64, f64); 5] = [
+    (0.046_910_077_030_668_0, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_5, 0.239_314_335_249_683_2),
+    (0.5, 0.284_444_444_444_444_4),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_2),
+    (0.953_089_922_969_332_0, 0.118_463_442_528_094_5),
+];

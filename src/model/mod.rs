@@ -1,3 +1,9 @@
 //! What is to be solved: the mesh, the case file, and the two joined by the names of the groups.
 
+pub mod case;
 pub mod mesh;
+pub mod msh;
+mod plane;
+pub mod resolve;
+pub mod split;
+pub mod units;

@@ -1,1 +1,7 @@
-//! TODO
+//! Physics that knows no mesh: element, material, joint law, histories in time.
+
+pub mod element;
+pub mod joint;
+pub mod material;
+pub mod pulse;
+pub mod shape;

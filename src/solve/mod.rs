@@ -1,1 +1,12 @@
-//! TODO
+//! The equations: assembled, condensed to the interface jumps, marched through time.
+
+pub mod assembly;
+pub mod condensed;
+pub mod contact;
+pub mod energy;
+pub mod interface;
+pub mod march;
+pub mod modes;
+pub mod newmark;
+pub mod system;
+pub mod unknowns;

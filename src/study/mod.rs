@@ -1,1 +1,15 @@
-//! TODO
+//! Whole runs: what each command does, from the case file to the last line on the screen.
+
+pub mod check;
+pub mod gmsh;
+pub mod mesh;
+pub mod modes;
+mod prepare;
+mod recorder;
+pub mod run;
+mod screen;
+
+/// `coralpipe schema`: the JSON Schema of the case file.
+pub fn schema() -> String {
+    format!("{:#}\n", crate::model::case::schema())
+}

@@ -1,0 +1,113 @@
+//! The command line: arguments become a command, its result an exit code.
+
+use clap::{Args, Parser, Subcommand};
+use coralpipe::study::{self, run::Request};
+use coralpipe::{Error, Result};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Buried pipes and layered ground under a blast wave.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Mesh and solve a case, and write its results
+    Run {
+        #[command(flatten)]
+        case: CaseArguments,
+        /// Results folder [default: output/NAME]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Glue pipes and ground together: no opening, no slip
+        #[arg(long)]
+        bonded: bool,
+        /// Print the results only, not what is going on
+        #[arg(long)]
+        quiet: bool,
+    },
+    /// Make the mesh of a case with gmsh, unless it is there already
+    Mesh {
+        #[command(flatten)]
+        case: CaseArguments,
+    },
+    /// Find everything that can be wrong with a case or a mesh, without solving
+    Check {
+        #[command(flatten)]
+        case: CaseArguments,
+    },
+    /// Natural frequencies, and mode shapes as .vtu
+    Modes {
+        #[command(flatten)]
+        case: CaseArguments,
+        /// How many modes
+        #[arg(short = 'n', default_value_t = 6)]
+        count: usize,
+        /// Results folder [default: output/NAME]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+    /// Print the JSON Schema of the case file, for editors
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub struct CaseArguments {
+    /// The case, a .json file
+    #[arg(value_name = "CASE.json", default_value = "geo/twin_pipes.json")]
+    case: PathBuf,
+    /// Give a constant of the .geo script another value
+    #[arg(long = "geo", value_name = "NAME=VALUE")]
+    geo: Vec<String>,
+    /// Give a key of the case another value: time.step="0.2 ms"
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    sets: Vec<String>,
+    /// Use this mesh, whatever the case says
+    #[arg(long, value_name = "FILE.msh")]
+    mesh: Option<PathBuf>,
+}
+
+impl CaseArguments {
+    fn request(self) -> Result<Request> {
+        Ok(Request {
+            geo: constants(&self.geo)?,
+            case: self.case,
+            sets: self.sets,
+            mesh: self.mesh,
+            out: None,
+            bonded: false,
+            quiet: false,
+        })
+    }
+}
+
+/// `NAME=VALUE` each, VALUE a number.
+fn constants(texts: &[String]) -> Result<BTreeMap<String, f64>> {
+    let constant = |text: &String| {
+        let (name, value) = text.split_once('=')?;
+        value.trim().parse().ok().filter(|v: &f64| v.is_finite()).map(|v| (name.trim().to_string(), v))
+    };
+    texts
+        .iter()
+        .map(|t| {
+            constant(t).ok_or_else(|| Error::input(format!("--geo {t}: write NAME=NUMBER, as in --geo spacing=3")))
+        })
+        .collect()
+}
+
+/// Does what was asked; what it returns goes to stdout.
+pub fn execute(command: Command) -> Result<String> {
+    match command {
+        Command::Run { case, out, bonded, quiet } => {
+            study::run::command(&Request { out, bonded, quiet, ..case.request()? })
+        }
+        Command::Mesh { case } => study::mesh::command(&case.request()?),
+        Command::Check { case } => study::check::command(&case.request()?),
+        Command::Modes { case, count, out } => study::modes::command(&Request { out, ..case.request()? }, count),
+        Command::Schema => Ok(study::schema()),
+    }
+}

@@ -1,0 +1,178 @@
+//! The case file: everything about a calculation that is not geometry, in the user's words.
+//!
+//! The types below are the file's keys and are already in SI; how the file is read stands in `read`.
+//! Values that are impossible by themselves are refused while reading, so a `Case` only holds possible ones.
+
+mod damping;
+mod duplicate;
+mod interface;
+mod load;
+mod material;
+mod probe;
+mod range;
+mod read;
+mod sentence;
+mod set;
+mod table;
+mod time;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+
+use damping::DampingKeys;
+pub use damping::{Damping, Rayleigh};
+pub use interface::{Integration, Interface};
+pub use load::{Directed, Load, Loads};
+pub use material::Material;
+pub use probe::Probe;
+pub use sentence::nearest;
+pub use time::{Newmark, Newton, Output, Start, TimeStepping};
+
+/// Materials, interfaces, supports, loads and time of one calculation; every name is a physical group of the mesh.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub struct Case {
+    /// for editors: where this schema lies; ignored
+    #[serde(rename = "$schema", default)]
+    _schema: Option<String>,
+    /// What is calculated, for people.
+    #[serde(default)]
+    pub title: String,
+    /// The Gmsh script or mesh; left out where the command line gives the mesh.
+    #[serde(default)]
+    #[schemars(with = "Option<GeometryKeys>")]
+    pub geometry: Option<Geometry>,
+    /// Material of each face group.
+    pub materials: BTreeMap<String, Material>,
+    /// Curves that open into joints between a body and the ground. Default: none.
+    #[serde(default)]
+    pub interfaces: BTreeMap<String, Interface>,
+    /// Directions in which a curve or point group is held. Default: none.
+    #[serde(default)]
+    pub supports: BTreeMap<String, Vec<Axis>>,
+    /// Loads by group; an object, or a list of objects that add up. Default: none.
+    #[serde(default)]
+    pub loads: Loads,
+    /// Rayleigh damping. Default: undamped.
+    #[serde(default)]
+    #[schemars(with = "Option<DampingKeys>")]
+    pub damping: Option<Damping>,
+    /// Consistent or lumped mass matrix. Default: "consistent".
+    #[serde(default)]
+    pub mass: Mass,
+    /// Step, end and integrator.
+    pub time: TimeStepping,
+    /// Iterations of a step with contact.
+    #[serde(default)]
+    pub newton: Newton,
+    /// Points whose history is written at every step. Default: none.
+    #[serde(default)]
+    pub probes: Vec<Probe>,
+    #[serde(default)]
+    pub output: Output,
+    /// the file read
+    #[serde(skip)]
+    path: PathBuf,
+    /// the file's content after `--set`, tables of loads read in: all that a result depends on, but the mesh
+    #[serde(skip)]
+    json: Value,
+}
+
+/// Where the mesh comes from.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "GeometryKeys")]
+pub enum Geometry {
+    /// a Gmsh script (`.geo`, path as written) and the constants it is run with, in the script's own units
+    Script { script: PathBuf, parameters: BTreeMap<String, f64> },
+    /// a mesh file (`.msh`, path as written)
+    Mesh(PathBuf),
+}
+
+/// `script`, with `parameters` if wanted, or `mesh`; paths start at the case file.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+struct GeometryKeys {
+    /// Gmsh script (.geo).
+    script: Option<PathBuf>,
+    /// Constants of the script (DefineConstant) by name, in its own units. Default: the script's values.
+    #[serde(default)]
+    parameters: BTreeMap<String, f64>,
+    /// Gmsh mesh (.msh), in place of a script.
+    mesh: Option<PathBuf>,
+}
+
+impl TryFrom<GeometryKeys> for Geometry {
+    type Error = &'static str;
+
+    fn try_from(keys: GeometryKeys) -> Result<Self, Self::Error> {
+        match (keys.script, keys.mesh) {
+            (Some(script), None) => Ok(Geometry::Script { script, parameters: keys.parameters }),
+            (None, Some(mesh)) if keys.parameters.is_empty() => Ok(Geometry::Mesh(mesh)),
+            (None, Some(_)) => Err("\"parameters\" belong to a \"script\", not to a \"mesh\""),
+            _ => Err("write either \"script\" (a .geo, with \"parameters\" if wanted) or \"mesh\" (a .msh)"),
+        }
+    }
+}
+
+/// A direction of the plane: x right, y up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Axis {
+    X,
+    Y,
+}
+
+impl Axis {
+    /// 0 for x, 1 for y
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// How inertia is spread over the nodes of an element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Mass {
+    /// with the shape functions of the displacements
+    #[default]
+    Consistent,
+    /// all at the nodes
+    Lumped,
+}
+
+impl Case {
+    /// The case file, as it was given.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file's name without folder and ending: names the output folder and series.
+    pub fn name(&self) -> String {
+        self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    }
+
+    /// A path written in the case, seen from the working directory: relative ones start at the case file's folder.
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// What was calculated: the file after `--set`, with the tables of loads read in.
+    pub fn json(&self) -> &Value {
+        &self.json
+    }
+
+    /// Time between frames [s]: `output.every`, else about a hundredth of the end, in whole steps.
+    pub fn frame_interval(&self) -> f64 {
+        let step = self.time.step.0;
+        self.output.every.map_or_else(|| step * (self.time.end.0 / 100.0 / step).round().max(1.0), f64::from)
+    }
+}
+
+/// JSON Schema of the case file, for editors.
+pub fn schema() -> Value {
+    schemars::schema_for!(Case).into()
+}

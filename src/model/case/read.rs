@@ -1,0 +1,106 @@
+//! From the file's text to a `Case`, or to one sentence: file, place in it, what is wrong, what exists.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::duplicate::Unique;
+use super::{Case, sentence, set, table};
+use crate::{Error, Result};
+
+impl Case {
+    /// Reads a case file, with each of `sets` (`PATH=VALUE`) put in first.
+    ///
+    /// Any error is `Error::Input` with the file, the path inside it and what is wrong there.
+    pub fn read(path: &Path, sets: &[String]) -> Result<Case> {
+        let file = path.display();
+        let text = std::fs::read_to_string(path).map_err(|why| unreadable(path, &why))?;
+        let json = parse(&text).map_err(|why| Error::input(format!("{file}, {why}")))?;
+        let json = sets.iter().try_fold(json, |json, setting| set::set(json, setting)).map_err(Error::Input)?;
+        let origin = match sets {
+            [] => file.to_string(),
+            _ => format!("{file} with --set {}", sets.join(" --set ")),
+        };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let case = from_json(json, folder).map_err(|why| Error::input(format!("{origin}: {why}")))?;
+        Ok(Case { path: path.into(), ..case })
+    }
+}
+
+fn from_json(json: Value, folder: &Path) -> std::result::Result<Case, String> {
+    let json = with_tables(json, folder)?;
+    let case: Case = serde_path_to_error::deserialize(&json).map_err(|why| {
+        let what = sentence::from_serde(&why.inner().to_string());
+        match why.path().to_string().as_str() {
+            "." => what,
+            place => format!("{place}: {what}"),
+        }
+    })?;
+    validate(&case)?;
+    Ok(Case { json, ..case })
+}
+
+fn with_tables(mut json: Value, folder: &Path) -> std::result::Result<Value, String> {
+    if let Some(loads) = json.get_mut("loads") {
+        *loads = table::inlined(loads.take(), folder).map_err(|why| format!("loads: {why}"))?;
+    }
+    Ok(json)
+}
+
+/// Relative: 0.3025 typed for (0.6 + 0.5)^2 / 4 must count as equal.
+const ROUND_OFF: f64 = 1e-12;
+
+/// What one value cannot know of another.
+fn validate(case: &Case) -> std::result::Result<(), String> {
+    let time = &case.time;
+    if time.end < time.step {
+        return Err(format!("time.end: it is {}, and must be at least one step ({})", time.end, time.step));
+    }
+    let (alpha, delta) = (time.newmark.alpha, time.newmark.delta);
+    let least = (delta + 0.5).powi(2) / 4.0;
+    if !(delta >= 0.5 && alpha >= least * (1.0 - ROUND_OFF)) {
+        return Err(format!(
+            "time.newmark: alpha = {alpha} with delta = {delta} is not unconditionally stable; \
+             delta must be at least 0.5 and alpha at least (delta + 0.5)^2 / 4 = {least:.6}"
+        ));
+    }
+    if let Some(every) = case.output.every.filter(|every| *every < time.step) {
+        return Err(format!("output.every: it is {every}, and must be at least one time step ({})", time.step));
+    }
+    for (i, probe) in case.probes.iter().enumerate() {
+        let name = probe.name();
+        if name.is_empty() || name.contains([',', '"', '\n', '\r']) {
+            return Err(format!(
+                "probes[{i}]: {name:?} cannot head a column; use a name without commas, quotes and line breaks"
+            ));
+        }
+        if case.probes[..i].iter().any(|earlier| earlier.name() == name) {
+            return Err(format!("probes[{i}]: there is a probe {name:?} already; every probe needs a name of its own"));
+        }
+    }
+    Ok(())
+}
+
+/// `line 3, column 5: what is wrong`
+fn parse(text: &str) -> std::result::Result<Value, String> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    serde_json::from_str::<Unique>(text).map(|Unique(json)| json).map_err(|why| {
+        let message = why.to_string();
+        let what = message.split(" at line ").next().unwrap_or_default();
+        format!("line {}, column {}: this is not JSON: {what}", why.line(), why.column())
+    })
+}
+
+fn unreadable(path: &Path, why: &std::io::Error) -> Error {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut cases: Vec<_> =
+        entries.map(|entry| entry.path()).filter(|p| p.extension().is_some_and(|e| e == "json")).collect();
+    cases.sort();
+    let names: Vec<_> = cases.iter().map(|case| case.display().to_string()).collect();
+    let there = match names.as_slice() {
+        [] => String::new(),
+        _ => format!("; there are: {}", names.join(", ")),
+    };
+    Error::input(format!("cannot read the case {}: {why}{there}", path.display()))
+}

@@ -1,0 +1,79 @@
+//! Steps, the integrator and how hard it works.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::range;
+use crate::model::units;
+
+/// The time that is calculated, from t = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub struct TimeStepping {
+    /// Time step [s], greater than 0.
+    #[serde(deserialize_with = "range::positive")]
+    pub step: units::Time,
+    /// End [s], at least one step.
+    #[serde(deserialize_with = "range::positive")]
+    pub end: units::Time,
+    /// Parameters of Newmark's method. Default: the trapezium rule.
+    #[serde(default)]
+    pub newmark: Newmark,
+    /// Acceleration at t = 0: "equilibrium" or "rest". Default: "equilibrium".
+    #[serde(default)]
+    pub start: Start,
+}
+
+/// Newmark's method; unconditionally stable for delta >= 1/2 and alpha >= (delta + 1/2)^2 / 4.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default, expecting = "an object")]
+pub struct Newmark {
+    /// Weight of the new acceleration in the displacement [-]. Default: 0.25.
+    pub alpha: f64,
+    /// Weight of the new acceleration in the velocity [-]. Default: 0.5.
+    pub delta: f64,
+}
+
+impl Default for Newmark {
+    fn default() -> Self {
+        Newmark { alpha: 0.25, delta: 0.5 }
+    }
+}
+
+/// The first acceleration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// M a0 = R(0) - C v0 - K u0: a blast begins with its peak
+    #[default]
+    Equilibrium,
+    /// a0 = 0
+    Rest,
+}
+
+/// When a step with contact counts as solved.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default, expecting = "an object")]
+pub struct Newton {
+    /// Residual over load [-], greater than 0 and less than 1. Default: 1e-8.
+    #[serde(deserialize_with = "range::tolerance")]
+    pub tolerance: f64,
+    /// Iterations before the step is cut, at least 1. Default: 30.
+    #[serde(deserialize_with = "range::at_least_one")]
+    pub max_iterations: usize,
+}
+
+impl Default for Newton {
+    fn default() -> Self {
+        Newton { tolerance: 1e-8, max_iterations: 30 }
+    }
+}
+
+/// What is written for ParaView.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default, expecting = "an object")]
+pub struct Output {
+    /// Time between frames [s], at least one step. Default: a hundredth of the end.
+    #[serde(deserialize_with = "range::optional_positive")]
+    pub every: Option<units::Time>,
+}

@@ -1,0 +1,383 @@
+//! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
+
+use super::case::{self, Case, Damping, Integration, Mass, Newmark, Newton, Probe, Start};
+use super::mesh::{Group, Mesh};
+use super::split::{self, Joint, Pair, Seam};
+use crate::physics::joint::{Friction, JointLaw};
+use crate::physics::material::Material;
+use crate::physics::pulse::Pulse;
+use crate::physics::shape::Shape;
+use crate::{Error, Result};
+use std::collections::{HashMap, HashSet};
+
+/// Everything the equations need, by index.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// with its interfaces open, unless the case is bonded
+    pub mesh: Mesh,
+    /// (face group, material)
+    pub materials: Vec<(String, Material)>,
+    /// for each cell the index of its material, none for lines and points
+    pub material_of: Vec<Option<usize>>,
+    pub mass: Mass,
+    /// names of the open interfaces; joints refer to them
+    pub seams: Vec<Seam>,
+    pub pairs: Vec<Pair>,
+    pub joints: Vec<Joint>,
+    /// for each joint
+    pub laws: Vec<(JointLaw, Integration)>,
+    /// for each node and axis
+    pub fixed: Vec<[bool; 2]>,
+    pub loads: Vec<Load>,
+    pub probes: Vec<NodeProbe>,
+    pub damping: Option<Damping>,
+    pub newmark: Newmark,
+    pub newton: Newton,
+    pub start: Start,
+    pub time: TimeGrid,
+    pub warnings: Vec<String>,
+}
+
+/// Equal steps from t = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeGrid {
+    /// [s]
+    pub step: f64,
+    pub steps: usize,
+    pub steps_per_frame: usize,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Load {
+    pub group: String,
+    /// [Pa], [N/m^3] or [N/m], as the target says
+    pub pulse: Pulse,
+    pub target: Target,
+}
+
+/// Where a load acts, per unit of its pulse.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Target {
+    /// presses on the lines from outside
+    Pressure { lines: Vec<Border> },
+    /// force per area of the lines along a unit vector
+    Traction { lines: Vec<Border>, direction: [f64; 2] },
+    /// force per volume of the faces along a unit vector
+    BodyForce { cells: Vec<usize>, direction: [f64; 2] },
+    /// force per metre of depth on each node along a unit vector
+    Force { nodes: Vec<usize>, direction: [f64; 2] },
+}
+
+/// A line on the border of the mesh, with the solid on its left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Border {
+    pub shape: Shape,
+    pub nodes: Vec<usize>,
+}
+
+/// A node whose motion is written at every step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeProbe {
+    pub name: String,
+    pub node: usize,
+}
+
+impl Model {
+    /// `bonded` leaves the interfaces closed: pipe and ground share their nodes.
+    ///
+    /// Errors name the group or the place: groups that do not exist, faces without material, joints without friction,
+    /// loads that lie inside the solid.
+    pub fn new(case: &Case, mesh: &Mesh, bonded: bool) -> Result<Model> {
+        let mut warnings = Vec::new();
+        let (materials, material_of) = materials(case, mesh, &mut warnings)?;
+        let seams = if bonded { vec![] } else { seams(case, mesh, &mut warnings) };
+        let opened = split::open(mesh, &seams)?;
+        let mesh = opened.mesh;
+        let laws = opened
+            .joints
+            .iter()
+            .map(|joint| joint_law(case, &seams[joint.seam], &materials[ground(joint, &material_of)]))
+            .collect::<Result<_>>()?;
+        warnings.extend(unused_groups(case, &mesh));
+        Ok(Model {
+            fixed: supports(case, &mesh)?,
+            loads: loads(case, &mesh)?,
+            probes: probes(case, &mesh, &mut warnings)?,
+            pairs: opened.pairs,
+            joints: opened.joints,
+            mass: case.mass,
+            damping: case.damping,
+            newmark: case.time.newmark,
+            newton: case.newton,
+            start: case.time.start,
+            time: time_grid(case, &mut warnings),
+            materials,
+            material_of,
+            seams,
+            laws,
+            mesh,
+            warnings,
+        })
+    }
+
+    /// Every face with its material.
+    pub fn faces(&self) -> impl Iterator<Item = (usize, &Material)> {
+        let cells = self.material_of.iter().enumerate();
+        cells.filter_map(|(cell, material)| material.map(|m| (cell, &self.materials[m].1)))
+    }
+}
+
+fn ground(joint: &Joint, material_of: &[Option<usize>]) -> usize {
+    material_of[joint.ground_cell].expect("every face has a material by now")
+}
+
+type Materials = (Vec<(String, Material)>, Vec<Option<usize>>);
+
+fn materials(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Result<Materials> {
+    let mut materials = Vec::new();
+    let mut material_of = vec![None; mesh.cells.len()];
+    for (name, m) in &case.materials {
+        if !mesh.groups.iter().any(|g| &g.name == name) {
+            warnings.push(format!("material \"{name}\" is not used: {} has no such group", mesh.name));
+            continue;
+        }
+        for &cell in &of_dimension(mesh, name, 2, "material")?.cells {
+            if let Some(other) = material_of[cell].replace(materials.len()) {
+                let (other, _): &(String, Material) = &materials[other];
+                return Err(Error::input(format!(
+                    "the surface at {} belongs to both \"{other}\" and \"{name}\": give each surface one material",
+                    place(mesh, cell)
+                )));
+            }
+        }
+        let material = Material { young: m.young.0, poisson: m.poisson, density: m.density.0 };
+        materials.push((name.clone(), material));
+    }
+    match (0..mesh.cells.len()).find(|&c| mesh.cells[c].shape.dimension() == 2 && material_of[c].is_none()) {
+        Some(cell) => Err(no_material(case, mesh, cell)),
+        None if materials.is_empty() => Err(Error::input(format!("{} has no surfaces to calculate with", mesh.name))),
+        None => Ok((materials, material_of)),
+    }
+}
+
+fn no_material(case: &Case, mesh: &Mesh, cell: usize) -> Error {
+    let groups = mesh.groups.iter().filter(|g| g.cells.binary_search(&cell).is_ok());
+    let names: Vec<String> = groups.map(|g| format!("\"{}\"", g.name)).collect();
+    let whose = match names.is_empty() {
+        true => "which belongs to no physical group".to_string(),
+        false => format!("of group {}", names.join(" and ")),
+    };
+    let given: Vec<&str> = case.materials.keys().map(String::as_str).collect();
+    Error::input(format!(
+        "the surface at {}, {whose}, has no material; materials are given for: {}",
+        place(mesh, cell),
+        given.join(", ")
+    ))
+}
+
+/// Interfaces whose curve or body is in the mesh; one of which neither is there is left out with a warning.
+fn seams(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Vec<Seam> {
+    let exists = |name: &str| mesh.groups.iter().any(|g| g.name == name);
+    let mut seams = Vec::new();
+    for (curve, interface) in &case.interfaces {
+        if exists(curve) || exists(&interface.body) {
+            seams.push(Seam { curve: curve.clone(), body: interface.body.clone() });
+        } else {
+            warnings.push(format!(
+                "interface \"{curve}\" is not used: {} has neither it nor its body \"{}\"",
+                mesh.name, interface.body
+            ));
+        }
+    }
+    seams
+}
+
+/// The layer's stiffness and friction, unless the interface names its own.
+fn joint_law(case: &Case, seam: &Seam, (ground, material): &(String, Material)) -> Result<(JointLaw, Integration)> {
+    let interface = &case.interfaces[&seam.curve];
+    let friction = interface.friction.or(case.materials[ground].friction).ok_or_else(|| {
+        Error::input(format!(
+            "interface \"{}\" runs through \"{ground}\", which has no friction: write materials.{ground}.friction or \
+             interfaces.{}.friction (0 for smooth)",
+            seam.curve, seam.curve
+        ))
+    })?;
+    let layer = JointLaw::of_layer(material, interface.thickness.0, friction);
+    let law = JointLaw {
+        normal_stiffness: interface.normal_stiffness.map_or(layer.normal_stiffness, |k| k.0),
+        tangential_stiffness: interface.tangential_stiffness.map_or(layer.tangential_stiffness, |k| k.0),
+        friction: Friction::Coulomb(friction),
+        gap: interface.gap.0,
+    };
+    Ok((law, interface.integration))
+}
+
+/// Nodes that no face uses do not move either.
+fn supports(case: &Case, mesh: &Mesh) -> Result<Vec<[bool; 2]>> {
+    let mut fixed = vec![[true; 2]; mesh.points.len()];
+    for face in mesh.cells.iter().filter(|c| c.shape.dimension() == 2) {
+        face.nodes.iter().for_each(|&n| fixed[n] = [false; 2]);
+    }
+    for (name, axes) in &case.supports {
+        let group = mesh.group(name).map_err(|e| Error::input(format!("supports: {e}")))?;
+        for node in mesh.nodes_of(group) {
+            axes.iter().for_each(|axis| fixed[node][axis.index()] = true);
+        }
+    }
+    Ok(fixed)
+}
+
+fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
+    let sides = solid_sides(mesh);
+    let load = |(name, load): (&str, &case::Load)| {
+        let group = |dimension| of_dimension(mesh, name, dimension, "load");
+        let target = match load {
+            case::Load::Pressure(_) => Target::Pressure { lines: border(mesh, group(1)?, &sides)? },
+            case::Load::Traction(d) => {
+                Target::Traction { lines: border(mesh, group(1)?, &sides)?, direction: d.direction }
+            }
+            case::Load::BodyForce(d) => Target::BodyForce { cells: group(2)?.cells.clone(), direction: d.direction },
+            case::Load::Force(d) => Target::Force { nodes: mesh.nodes_of(group(0)?), direction: d.direction },
+        };
+        Ok(Load { group: name.to_string(), pulse: load.pulse().clone(), target })
+    };
+    case.loads.iter().map(load).collect()
+}
+
+/// Every side of every face, running anticlockwise, by its corners; twice where two faces share it.
+type Sides = HashMap<(usize, usize), Vec<Vec<usize>>>;
+
+fn solid_sides(mesh: &Mesh) -> Sides {
+    let mut sides = Sides::new();
+    for face in mesh.cells.iter().filter(|c| c.shape.dimension() == 2) {
+        for side in face.shape.sides() {
+            let nodes: Vec<usize> = side.iter().map(|&local| face.nodes[local]).collect();
+            sides.entry((nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).or_default().push(nodes);
+        }
+    }
+    sides
+}
+
+/// The group's lines with the solid on their left; each must have a face on exactly one side.
+fn border(mesh: &Mesh, group: &Group, sides: &Sides) -> Result<Vec<Border>> {
+    let oriented = |&cell: &usize| {
+        let nodes = &mesh.cells[cell].nodes;
+        match sides.get(&(nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).map(Vec::as_slice) {
+            Some([side]) => Ok(Border { shape: mesh.cells[cell].shape, nodes: side.clone() }),
+            found => Err(Error::input(format!(
+                "load on \"{}\": its line at {} has {} on its sides; a loaded line lies on the border of the mesh",
+                group.name,
+                place(mesh, cell),
+                if found.is_some() { "a surface on both" } else { "no surface" },
+            ))),
+        }
+    };
+    group.cells.iter().map(oriented).collect()
+}
+
+fn probes(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Result<Vec<NodeProbe>> {
+    let mut names = HashSet::new();
+    let mut probes = Vec::new();
+    for probe in &case.probes {
+        let name = probe.name().to_string();
+        if !names.insert(name.clone()) {
+            return Err(Error::input(format!("probe \"{name}\" stands twice in probes: each needs its own name")));
+        }
+        let node = match probe {
+            Probe::Group(group) => named_point(mesh, group)?,
+            Probe::Place { at, body, .. } => nearest_node(mesh, &name, *at, body.as_deref(), warnings)?,
+        };
+        probes.push(NodeProbe { name, node });
+    }
+    Ok(probes)
+}
+
+fn named_point(mesh: &Mesh, name: &str) -> Result<usize> {
+    let group = of_dimension(mesh, name, 0, "probe")?;
+    match mesh.nodes_of(group)[..] {
+        [node] => Ok(node),
+        ref nodes => Err(Error::input(format!(
+            "probe \"{name}\" must be one point; the group has {} points in {}",
+            nodes.len(),
+            mesh.name
+        ))),
+    }
+}
+
+fn nearest_node(
+    mesh: &Mesh,
+    name: &str,
+    at: [f64; 2],
+    body: Option<&str>,
+    warnings: &mut Vec<String>,
+) -> Result<usize> {
+    let mut nodes = match body {
+        Some(body) => mesh.nodes_of(of_dimension(mesh, body, 2, "probe body")?),
+        None => {
+            let faces = mesh.cells.iter().filter(|c| c.shape.dimension() == 2);
+            faces.flat_map(|c| c.nodes.iter().copied()).collect()
+        }
+    };
+    nodes.sort_unstable();
+    let distance = |&n: &usize| (mesh.points[n][0] - at[0]).hypot(mesh.points[n][1] - at[1]);
+    let nearest = nodes.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let node = nearest.ok_or_else(|| Error::input(format!("probe \"{name}\": {} has no nodes", mesh.name)))?;
+    if distance(&node) > 1e-9 {
+        let [x, y] = mesh.points[node];
+        warnings.push(format!(
+            "probe \"{name}\" at ({}, {}) m is taken at the nearest node, ({x:.4}, {y:.4}) m, {:.3} m away",
+            at[0],
+            at[1],
+            distance(&node)
+        ));
+    }
+    Ok(node)
+}
+
+/// Whole steps to the end and to each frame.
+fn time_grid(case: &Case, warnings: &mut Vec<String>) -> TimeGrid {
+    let step = case.time.step.0;
+    let whole = |what: &str, span: f64, warnings: &mut Vec<String>| {
+        let count = (span / step).round().max(1.);
+        if (count * step / span - 1.).abs() > 1e-9 {
+            warnings.push(format!("{what} = {span} s is not a whole number of steps; {} s is used", count * step));
+        }
+        count as usize
+    };
+    TimeGrid {
+        step,
+        steps: whole("time.end", case.time.end.0, warnings),
+        steps_per_frame: whole("output.every", case.frame_interval(), warnings),
+    }
+}
+
+/// Groups of curves and surfaces that the case does not mention.
+fn unused_groups(case: &Case, mesh: &Mesh) -> Option<String> {
+    let loaded: HashSet<&str> = case.loads.iter().map(|(group, _)| group).collect();
+    let is_used = |name: &String| {
+        case.materials.contains_key(name)
+            || case.interfaces.contains_key(name)
+            || case.supports.contains_key(name)
+            || loaded.contains(name.as_str())
+    };
+    let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !is_used(&g.name));
+    let names: Vec<&str> = unused.map(|g| g.name.as_str()).collect();
+    (!names.is_empty()).then(|| format!("groups of {} that the case does not use: {}", mesh.name, names.join(", ")))
+}
+
+fn of_dimension<'a>(mesh: &'a Mesh, name: &str, dimension: usize, what: &str) -> Result<&'a Group> {
+    const KIND: [&str; 3] = ["points", "curves", "surfaces"];
+    let group = mesh.group(name).map_err(|e| Error::input(format!("{what} \"{name}\": {e}")))?;
+    match group.dimension == dimension {
+        true => Ok(group),
+        false => Err(Error::input(format!(
+            "{what} \"{name}\" needs a group of {}; in {} it is one of {}",
+            KIND[dimension], mesh.name, KIND[group.dimension]
+        ))),
+    }
+}
+
+fn place(mesh: &Mesh, cell: usize) -> String {
+    let [x, y] = mesh.centroid(&mesh.cells[cell]);
+    format!("({x:.4}, {y:.4}) m")
+}

@@ -1,0 +1,255 @@
+//! Opens the interfaces: where a body meets the ground along a named curve, the body's elements get copies of the nodes.
+//!
+//! The ground keeps its nodes. Both node rows of each joint are known exactly, mid-side nodes too, and each joint knows
+//! its own two elements, since a pipe may cross a layer boundary.
+
+use super::mesh::{Mesh, Shape};
+use crate::{Error, Result};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// An interface to open: the group of its curve and the group of faces that is pulled off the ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seam {
+    pub curve: String,
+    pub body: String,
+}
+
+/// Two nodes at one place; jump = u(ground) - u(body).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Pair {
+    pub ground: usize,
+    pub body: usize,
+}
+
+/// A joint element: one line of an interface curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// which seam it belongs to
+    pub seam: usize,
+    pub shape: Shape,
+    /// indices of pairs in the line's node order, running anticlockwise round the body
+    pub pairs: Vec<usize>,
+    /// the face it leans on, on either side
+    pub ground_cell: usize,
+    pub body_cell: usize,
+}
+
+/// The mesh with its interfaces open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Opened {
+    pub mesh: Mesh,
+    pub pairs: Vec<Pair>,
+    pub joints: Vec<Joint>,
+}
+
+/// An edge by its two corner nodes, smaller first.
+type Edge = (usize, usize);
+
+/// Opens every seam of a conforming mesh.
+///
+/// Errors name the group and the coordinates: a curve that is not the border between its body and something else, or one
+/// that ends while body and ground go on touching.
+pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
+    let faces_at = faces_at_edges(mesh);
+    let bodies = seams
+        .iter()
+        .map(|seam| Ok(mesh.group(&seam.body)?.cells.iter().copied().collect()))
+        .collect::<Result<Vec<BTreeSet<usize>>>>()?;
+    let lines = border_lines(mesh, seams, &bodies, &faces_at)?;
+    refuse_loose_ends(mesh, seams, &bodies, &lines, &faces_at)?;
+
+    let mut opened = mesh.clone();
+    let copies = copy_nodes(&mut opened, seams, &bodies, &lines);
+    move_lines_and_points(mesh, &mut opened, &faces_at, &copies);
+    let (pairs, joints) = joints(mesh, &opened, &lines);
+    Ok(Opened { mesh: opened, pairs, joints })
+}
+
+/// A line of a seam with the faces on its two sides.
+struct BorderLine {
+    seam: usize,
+    cell: usize,
+    ground_cell: usize,
+    body_cell: usize,
+}
+
+fn edge(a: usize, b: usize) -> Edge {
+    (a.min(b), a.max(b))
+}
+
+fn faces_at_edges(mesh: &Mesh) -> HashMap<Edge, Vec<usize>> {
+    let mut faces: HashMap<Edge, Vec<usize>> = HashMap::new();
+    for (c, cell) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
+        for side in cell.shape.sides() {
+            faces.entry(edge(cell.nodes[side[0]], cell.nodes[side[1]])).or_default().push(c);
+        }
+    }
+    faces
+}
+
+fn border_lines(
+    mesh: &Mesh,
+    seams: &[Seam],
+    bodies: &[BTreeSet<usize>],
+    faces_at: &HashMap<Edge, Vec<usize>>,
+) -> Result<Vec<BorderLine>> {
+    let mut lines = Vec::new();
+    for (seam, (Seam { curve, body }, faces)) in seams.iter().zip(bodies).enumerate() {
+        let group = mesh.group(curve)?;
+        if group.dimension != 1 {
+            return Err(Error::input(format!(
+                "interface \"{curve}\" must be a group of curves in the geometry; it is a group of {}",
+                ["points", "curves", "surfaces"][group.dimension]
+            )));
+        }
+        for &cell in &group.cells {
+            let nodes = &mesh.cells[cell].nodes;
+            let sides = faces_at.get(&edge(nodes[0], nodes[1])).map_or(&[][..], Vec::as_slice);
+            let (inside, outside): (Vec<usize>, Vec<usize>) = sides.iter().partition(|f| faces.contains(f));
+            let (&[body_cell], &[ground_cell]) = (&inside[..], &outside[..]) else {
+                let [x, y] = mesh.points[nodes[0]];
+                return Err(Error::input(format!(
+                    "interface \"{curve}\" must be a border of its body \"{body}\": its line at ({x:.4}, {y:.4}) m has {} \
+                     elements of the body and {} others beside it, not one of each",
+                    inside.len(),
+                    outside.len()
+                )));
+            };
+            lines.push(BorderLine { seam, cell, ground_cell, body_cell });
+        }
+    }
+    Ok(lines)
+}
+
+/// A seam may close on itself or run out of the mesh, but not stop where body and ground still share an edge.
+fn refuse_loose_ends(
+    mesh: &Mesh,
+    seams: &[Seam],
+    bodies: &[BTreeSet<usize>],
+    lines: &[BorderLine],
+    faces_at: &HashMap<Edge, Vec<usize>>,
+) -> Result<()> {
+    let opened: HashMap<Edge, &str> =
+        lines.iter().map(|l| (corner_edge(mesh, l.cell), seams[l.seam].body.as_str())).collect();
+    let mut touched: HashMap<&str, BTreeSet<usize>> = HashMap::new();
+    for (edge, body) in &opened {
+        touched.entry(body).or_default().extend([edge.0, edge.1]);
+    }
+    for (seam, faces) in seams.iter().zip(bodies) {
+        let ends = touched.entry(&seam.body).or_default();
+        let still_joined = faces_at.iter().find(|(edge, sides)| {
+            let split = sides.iter().filter(|f| faces.contains(f)).count();
+            split == 1
+                && sides.len() == 2
+                && opened.get(edge) != Some(&seam.body.as_str())
+                && (ends.contains(&edge.0) || ends.contains(&edge.1))
+        });
+        if let Some((&(a, b), _)) = still_joined {
+            let [x, y] = mesh.points[if ends.contains(&a) { a } else { b }];
+            return Err(Error::input(format!(
+                "interface \"{}\" ends at ({x:.4}, {y:.4}) m although \"{}\" goes on touching the ground there: let the curve \
+                 close, or run to the border of the mesh",
+                seam.curve, seam.body
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn corner_edge(mesh: &Mesh, line: usize) -> Edge {
+    let nodes = &mesh.cells[line].nodes;
+    edge(nodes[0], nodes[1])
+}
+
+/// For each face, what its nodes became.
+type Copies = BTreeMap<(usize, usize), usize>;
+
+/// Gives each body's faces their own copy of the body's seam nodes; (face, node) -> copy.
+fn copy_nodes(opened: &mut Mesh, seams: &[Seam], bodies: &[BTreeSet<usize>], lines: &[BorderLine]) -> Copies {
+    let mut copies = Copies::new();
+    let mut copy_of: BTreeMap<(&str, usize), usize> = BTreeMap::new();
+    for line in lines {
+        for node in opened.cells[line.cell].nodes.clone() {
+            copy_of.entry((&seams[line.seam].body, node)).or_insert_with(|| {
+                opened.points.push(opened.points[node]);
+                opened.tags.push(opened.tags[node]);
+                opened.points.len() - 1
+            });
+        }
+    }
+    for (seam, faces) in seams.iter().zip(bodies) {
+        for &face in faces {
+            for node in &mut opened.cells[face].nodes {
+                if let Some(&copy) = copy_of.get(&(seam.body.as_str(), *node)) {
+                    copies.insert((face, *node), copy);
+                    *node = copy;
+                }
+            }
+        }
+    }
+    copies
+}
+
+/// Lines of other groups follow the face they border; named points on a seam belong to the body.
+fn move_lines_and_points(mesh: &Mesh, opened: &mut Mesh, faces_at: &HashMap<Edge, Vec<usize>>, copies: &Copies) {
+    let body_node: HashMap<usize, usize> = copies.iter().map(|(&(_, node), &copy)| (node, copy)).collect();
+    for (c, cell) in mesh.cells.iter().enumerate() {
+        let follows = match cell.shape.dimension() {
+            0 => {
+                opened.cells[c].nodes = cell.nodes.iter().map(|n| *body_node.get(n).unwrap_or(n)).collect();
+                continue;
+            }
+            1 => faces_at.get(&edge(cell.nodes[0], cell.nodes[1])).and_then(|f| f.first()),
+            _ => None,
+        };
+        if let Some(&face) = follows {
+            opened.cells[c].nodes = cell.nodes.iter().map(|&n| *copies.get(&(face, n)).unwrap_or(&n)).collect();
+        }
+    }
+}
+
+fn joints(mesh: &Mesh, opened: &Mesh, lines: &[BorderLine]) -> (Vec<Pair>, Vec<Joint>) {
+    let mut index: HashMap<Pair, usize> = HashMap::new();
+    let mut pairs = Vec::new();
+    let mut joints = Vec::new();
+    for line in lines {
+        let shape = mesh.cells[line.cell].shape;
+        let body_side = side_along(mesh, line.body_cell, line.cell);
+        let ground_side = side_along(mesh, line.ground_cell, line.cell);
+        let nodes = body_side.iter().map(|&local| {
+            let node = mesh.cells[line.body_cell].nodes[local];
+            let across = ground_side
+                .iter()
+                .find(|&&g| mesh.cells[line.ground_cell].nodes[g] == node)
+                .expect("both faces hold the line's nodes");
+            Pair {
+                ground: opened.cells[line.ground_cell].nodes[*across],
+                body: opened.cells[line.body_cell].nodes[local],
+            }
+        });
+        let numbers = nodes
+            .map(|pair| {
+                *index.entry(pair).or_insert_with(|| {
+                    pairs.push(pair);
+                    pairs.len() - 1
+                })
+            })
+            .collect();
+        joints.push(Joint {
+            seam: line.seam,
+            shape,
+            pairs: numbers,
+            ground_cell: line.ground_cell,
+            body_cell: line.body_cell,
+        });
+    }
+    (pairs, joints)
+}
+
+/// The side of a face that lies on the given line, as local node numbers.
+fn side_along(mesh: &Mesh, face: usize, line: usize) -> Vec<usize> {
+    let cell = &mesh.cells[face];
+    let wanted = corner_edge(mesh, line);
+    let along = |side: &Vec<usize>| edge(cell.nodes[side[0]], cell.nodes[side[1]]) == wanted;
+    cell.shape.sides().into_iter().find(along).expect("the face was found by this edge")
+}

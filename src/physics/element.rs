@@ -1,0 +1,224 @@
+//! Plane-strain elements T3, Q4, T6, Q8: stiffness and mass by Gauss quadrature, eqs. (2)-(6) of the paper.
+//!
+//! Matrices run over the element's unknowns (u_x, u_y of node 0, of node 1, ...), for a slice 1 m thick.
+
+use super::shape::Shape;
+use nalgebra::{DMatrix, Matrix3};
+
+/// An integration point: shape functions and their gradients in x, y, and the volume it stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// where it lies [m]
+    pub at: [f64; 2],
+    /// N_i [-]
+    pub n: Vec<f64>,
+    /// dN_i/dx, dN_i/dy [1/m]
+    pub gradient: Vec<[f64; 2]>,
+    /// det J times the weight, times 1 m [m^3]; not positive where the element is folded
+    pub dv: f64,
+}
+
+impl Point {
+    /// epsilon = B u, with epsilon = (xx, yy, gamma_xy): 3 x 2n [1/m].
+    pub fn b(&self) -> DMatrix<f64> {
+        let mut b = DMatrix::zeros(3, 2 * self.n.len());
+        for (i, [dx, dy]) in self.gradient.iter().enumerate() {
+            b[(0, 2 * i)] = *dx;
+            b[(1, 2 * i + 1)] = *dy;
+            b[(2, 2 * i)] = *dy;
+            b[(2, 2 * i + 1)] = *dx;
+        }
+        b
+    }
+
+    /// u(x) = N u: 2 x 2n [-].
+    pub fn n_matrix(&self) -> DMatrix<f64> {
+        let mut n = DMatrix::zeros(2, 2 * self.n.len());
+        for (i, ni) in self.n.iter().enumerate() {
+            n[(0, 2 * i)] = *ni;
+            n[(1, 2 * i + 1)] = *ni;
+        }
+        n
+    }
+}
+
+/// K = sum B' D B dv [N/m], eq. (5).
+pub fn stiffness(points: &[Point], d: &Matrix3<f64>) -> DMatrix<f64> {
+    points.iter().map(|p| p.b().transpose() * d * p.b() * p.dv).sum()
+}
+
+/// Consistent mass M = sum rho N' N dv [kg], eq. (6).
+pub fn mass(points: &[Point], density: f64) -> DMatrix<f64> {
+    points.iter().map(|p| p.n_matrix().transpose() * p.n_matrix() * (density * p.dv)).sum()
+}
+
+/// Lumped mass: the diagonal of the consistent one, scaled to the element's mass (Hinton, Rock, Zienkiewicz 1976) [kg].
+pub fn lumped_mass(points: &[Point], density: f64) -> DMatrix<f64> {
+    let diagonal = mass(points, density).diagonal();
+    let total: f64 = points.iter().map(|p| density * p.dv).sum();
+    let along_x: f64 = diagonal.iter().step_by(2).sum();
+    DMatrix::from_diagonal(&(diagonal * (total / along_x)))
+}
+
+/// What an integral must be exact for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integral {
+    Stiffness,
+    Mass,
+}
+
+/// Integration points of a face with the given nodes [m], anticlockwise.
+pub fn points(shape: Shape, nodes: &[[f64; 2]], integral: Integral) -> Vec<Point> {
+    rule(shape, integral).iter().map(|&(at, weight)| point(shape, nodes, at, weight)).collect()
+}
+
+/// The point at (r, s) of the reference cell: gradients by the chain rule, dN/dx = J^-1 dN/dr.
+pub fn point(shape: Shape, nodes: &[[f64; 2]], at: [f64; 2], weight: f64) -> Point {
+    let functions = shape.functions(at);
+    let sum = |f: &dyn Fn(usize) -> f64| (0..nodes.len()).map(f).sum::<f64>();
+    // J[k][i] = dx_i / dr_k
+    let j = [0, 1].map(|k| [0, 1].map(|i| sum(&|a| functions[a].1[k] * nodes[a][i])));
+    let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+    let gradient = functions
+        .iter()
+        .map(|(_, [dr, ds])| [(j[1][1] * dr - j[0][1] * ds) / det, (j[0][0] * ds - j[1][0] * dr) / det])
+        .collect();
+    Point {
+        at: [0, 1].map(|i| sum(&|a| functions[a].0 * nodes[a][i])),
+        n: functions.iter().map(|f| f.0).collect(),
+        gradient,
+        dv: det * weight,
+    }
+}
+
+/// Points (r, s) and weights. Stiffness: 1, 2x2, 3, 3x3 points for T3, Q4, T6, Q8; mass: exact for N N' on straight sides.
+fn rule(shape: Shape, integral: Integral) -> Vec<([f64; 2], f64)> {
+    match (shape, integral) {
+        (Shape::Tri3, Integral::Stiffness) => vec![([1. / 3., 1. / 3.], 0.5)],
+        (Shape::Tri3, Integral::Mass) | (Shape::Tri6, Integral::Stiffness) => triangle_3(),
+        (Shape::Tri6, Integral::Mass) => triangle_6(),
+        (Shape::Quad4, _) => square(&gauss_2()),
+        (Shape::Quad8, _) => square(&gauss_3()),
+        (Shape::Point | Shape::Line2 | Shape::Line3, _) => vec![],
+    }
+}
+
+/// Gauss-Legendre on [-1, 1], exact to degree 3: (point, weight).
+pub fn gauss_2() -> [(f64, f64); 2] {
+    let a = 1. / 3f64.sqrt();
+    [(-a, 1.), (a, 1.)]
+}
+
+/// Gauss-Legendre on [-1, 1], exact to degree 5.
+pub fn gauss_3() -> [(f64, f64); 3] {
+    let a = 0.6f64.sqrt();
+    [(-a, 5. / 9.), (0., 8. / 9.), (a, 5. / 9.)]
+}
+
+fn square(line: &[(f64, f64)]) -> Vec<([f64; 2], f64)> {
+    let grid = line.iter().flat_map(|a| line.iter().map(move |b| (a, b)));
+    grid.map(|((r, wr), (s, ws))| ([*r, *s], wr * ws)).collect()
+}
+
+/// Exact to degree 2.
+fn triangle_3() -> Vec<([f64; 2], f64)> {
+    let (a, b) = (1. / 6., 2. / 3.);
+    [[a, a], [b, a], [a, b]].map(|p| (p, 1. / 6.)).to_vec()
+}
+
+/// Exact to degree 4 (Strang and Fix 1973; the roots in closed form).
+fn triangle_6() -> Vec<([f64; 2], f64)> {
+    let root10 = 10f64.sqrt();
+    let inner = (38. - 44. * 0.4f64.sqrt()).sqrt();
+    let spread = (213_125. - 53_320. * root10).sqrt();
+    [(1., 1.), (-1., -1.)]
+        .iter()
+        .flat_map(|&(sign, spread_sign)| {
+            let a = (8. - root10 + sign * inner) / 18.;
+            let weight = (620. + spread_sign * spread) / 3720. / 2.;
+            let b = 1. - 2. * a;
+            [[a, a], [b, a], [a, b]].map(|p| (p, weight))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::material::Material;
+    use nalgebra::DVector;
+
+    const STEEL: Material = Material { young: 1e6, poisson: 0.25, density: 7800. };
+
+    /// A distorted face of each shape, mid-sides moved a little off the straight line.
+    fn distorted(shape: Shape) -> Vec<[f64; 2]> {
+        let mut nodes = match shape.corner_count() {
+            3 => vec![[0., 0.], [1.3, 0.2], [0.3, 0.9]],
+            _ => vec![[0., 0.], [1.2, 0.1], [1., 1.1], [-0.1, 0.8]],
+        };
+        for side in shape.sides().iter().filter(|s| s.len() == 3) {
+            let (a, b) = (nodes[side[0]], nodes[side[1]]);
+            nodes.push([(a[0] + b[0]) / 2. + 0.02, (a[1] + b[1]) / 2. - 0.01]);
+        }
+        nodes
+    }
+
+    const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Quad4, Shape::Tri6, Shape::Quad8];
+
+    /// Relative to the largest eigenvalue the zero ones are round-off, the smallest elastic one is above 1e-3.
+    #[test]
+    fn an_element_has_exactly_three_rigid_modes() {
+        for shape in SHAPES {
+            let points = points(shape, &distorted(shape), Integral::Stiffness);
+            let eigen = stiffness(&points, &STEEL.plane_strain()).symmetric_eigenvalues();
+            let zeros = eigen.iter().filter(|e| e.abs() < 1e-8 * eigen.max()).count();
+            assert_eq!(zeros, 3, "{shape:?}");
+        }
+    }
+
+    /// T6 with straight sides by 3 points is exact, curved it is not: the linear field's energy is, in both, dv being summed.
+    #[test]
+    fn a_linear_field_gives_its_exact_strain_and_energy() {
+        for shape in SHAPES {
+            let nodes = distorted(shape);
+            let u = DVector::from_iterator(
+                2 * nodes.len(),
+                nodes.iter().flat_map(|[x, y]| [1e-3 * (x + y / 2.), 1e-3 * (y + x / 2.)]),
+            );
+            let d = STEEL.plane_strain();
+            for p in points(shape, &nodes, Integral::Stiffness) {
+                let stress = d * p.b() * &u;
+                for (s, exact) in stress.iter().zip([1600., 1600., 400.]) {
+                    assert!((s - exact).abs() < 1e-9, "{shape:?}: {s}");
+                }
+            }
+        }
+    }
+
+    /// Integrals of r^p s^q over the reference triangle are p! q! / (p + q + 2)!.
+    #[test]
+    fn triangle_rules_are_exact_to_their_degree() {
+        let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
+        for (rule, degree) in [(triangle_3(), 2), (triangle_6(), 4)] {
+            for p in 0..=degree {
+                for q in 0..=degree - p {
+                    let sum: f64 = rule.iter().map(|([r, s], w)| w * r.powi(p) * s.powi(q)).sum();
+                    let exact = factorial(p) * factorial(q) / factorial(p + q + 2);
+                    assert!((sum - exact).abs() < 1e-15, "r^{p} s^{q}: {sum} {exact}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn both_masses_carry_the_elements_mass_in_each_direction() {
+        for shape in SHAPES {
+            let points = points(shape, &distorted(shape), Integral::Mass);
+            let total: f64 = points.iter().map(|p| 7800. * p.dv).sum();
+            for m in [mass(&points, 7800.), lumped_mass(&points, 7800.)] {
+                let ones = DVector::from_fn(m.nrows(), |i, _| f64::from(i % 2 == 0));
+                assert!((ones.dot(&(&m * &ones)) / total - 1.).abs() < 1e-14, "{shape:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Linear elastic, isotropic material in plane strain.
+
+use nalgebra::{Matrix3, Vector3};
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Young's modulus E [Pa]
+    pub young: f64,
+    /// Poisson's ratio, -1 < nu < 1/2
+    pub poisson: f64,
+    /// mass density [kg/m^3]
+    pub density: f64,
+}
+
+impl Material {
+    /// Shear modulus G = E / 2(1 + nu) [Pa].
+    pub fn shear_modulus(&self) -> f64 {
+        self.young / (2. * (1. + self.poisson))
+    }
+
+    /// Constrained modulus, of compression without lateral strain: E(1 - nu) / (1 + nu)(1 - 2nu) [Pa].
+    pub fn oedometric_modulus(&self) -> f64 {
+        let nu = self.poisson;
+        self.young * (1. - nu) / ((1. + nu) * (1. - 2. * nu))
+    }
+
+    /// sigma = D epsilon, with sigma = (xx, yy, xy) and epsilon = (xx, yy, gamma_xy), eps_zz = 0 [Pa].
+    pub fn plane_strain(&self) -> Matrix3<f64> {
+        let (m, g) = (self.oedometric_modulus(), self.shear_modulus());
+        let lambda = m - 2. * g;
+        Matrix3::new(m, lambda, 0., lambda, m, 0., 0., 0., g)
+    }
+
+    /// sigma_zz = nu (sigma_xx + sigma_yy) [Pa], of a stress (xx, yy, xy).
+    pub fn out_of_plane_stress(&self, stress: &Vector3<f64>) -> f64 {
+        self.poisson * (stress[0] + stress[1])
+    }
+
+    /// Speed of P waves, sqrt(M / rho) [m/s].
+    pub fn p_speed(&self) -> f64 {
+        (self.oedometric_modulus() / self.density).sqrt()
+    }
+
+    /// Speed of S waves, sqrt(G / rho) [m/s].
+    pub fn s_speed(&self) -> f64 {
+        (self.shear_modulus() / self.density).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The three coral layers and the steel: constrained and shear modulus [MPa], wave speeds [m/s], computed
+    /// independently from the paper's Table 2; printed to 6 digits, hence the tolerance.
+    #[test]
+    fn layers_have_the_moduli_and_wave_speeds_of_the_papers_table() {
+        let rows = [
+            (183e6, 0.46, 2200., 846.062, 62.671, 620.14, 168.78),
+            (519e6, 0.38, 2600., 971.558, 188.043, 611.29, 268.93),
+            (863e6, 0.27, 2700., 1078.381, 339.764, 631.98, 354.74),
+            (210e9, 0.30, 7800., 282_692., 80_769.2, 6020.18, 3217.92),
+        ];
+        for (young, poisson, density, m, g, cp, cs) in rows {
+            let material = Material { young, poisson, density };
+            let near = |a: f64, b: f64| (a / b - 1.).abs() < 3e-5;
+            assert!(near(material.oedometric_modulus(), m * 1e6));
+            assert!(near(material.shear_modulus(), g * 1e6));
+            assert!(near(material.p_speed(), cp) && near(material.s_speed(), cs));
+        }
+    }
+
+    /// Uniaxial stress with eps_zz = 0: sigma_xx = E / (1 - nu^2) eps_xx, sigma_zz = nu sigma_xx.
+    #[test]
+    fn plane_strain_hides_the_out_of_plane_stress_of_a_uniaxial_state() {
+        let m = Material { young: 7., poisson: 0.3, density: 1. };
+        let strain = Vector3::new(1., -0.3 / 0.7, 0.);
+        let stress = m.plane_strain() * strain;
+        assert!((stress[0] - 7. / (1. - 0.09)).abs() < 1e-14 && stress[1].abs() < 1e-14);
+        assert!((m.out_of_plane_stress(&stress) - 0.3 * stress[0]).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,18 @@
+//! Files that are whole or not there: written under another name, then renamed.
+
+use crate::{Error, Result};
+use std::path::Path;
+
+/// Writes `content` so that a reader, or a kill at any moment, finds the old file or the new one.
+pub fn replace(path: &Path, content: &[u8]) -> Result<()> {
+    let part = path.with_extension("part");
+    std::fs::write(&part, content).and_then(|()| std::fs::rename(&part, path)).map_err(|e| not_written(path, &e))
+}
+
+pub fn create_folder(path: &Path) -> Result<()> {
+    std::fs::create_dir_all(path).map_err(|e| not_written(path, &e))
+}
+
+pub fn not_written(path: &Path, why: &std::io::Error) -> Error {
+    Error::input(format!("{} cannot be written: {why}; choose another folder with --out", path.display()))
+}

@@ -1,0 +1,72 @@
+//! Motion of the probes at every step, as CSV, and their peaks.
+
+use super::file;
+use crate::Result;
+use crate::model::resolve::NodeProbe;
+use crate::solve::system::State;
+use crate::solve::unknowns::Unknowns;
+use serde::Serialize;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Columns of a probe, in this order: displacement [m], velocity [m/s], acceleration [m/s^2].
+const COMPONENTS: [&str; 6] = ["ux", "uy", "vx", "vy", "ax", "ay"];
+
+/// The value of largest magnitude and when it was.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Peak {
+    pub value: f64,
+    pub time: f64,
+}
+
+/// `histories.csv`, written in whole lines, so that a kill leaves a table that reads.
+pub struct Histories {
+    path: PathBuf,
+    file: File,
+    /// whole lines not yet written
+    waiting: String,
+    probes: Vec<NodeProbe>,
+    peaks: Vec<[Peak; 6]>,
+}
+
+impl Histories {
+    pub fn create(path: &Path, probes: &[NodeProbe]) -> Result<Histories> {
+        let file = File::create(path).map_err(|e| file::not_written(path, &e))?;
+        let columns = probes.iter().flat_map(|p| COMPONENTS.map(|c| format!(",{}.{c}", p.name)));
+        Ok(Histories {
+            path: path.into(),
+            file,
+            waiting: format!("t{}\n", columns.collect::<String>()),
+            probes: probes.to_vec(),
+            peaks: vec![[Peak::default(); 6]; probes.len()],
+        })
+    }
+
+    pub fn record(&mut self, unknowns: &Unknowns, state: &State) {
+        self.waiting += &format!("{:e}", state.time);
+        for (probe, peaks) in self.probes.iter().zip(&mut self.peaks) {
+            let motion = [&state.q, &state.v, &state.a].map(|x| unknowns.at_node(x, probe.node));
+            for (value, peak) in motion.as_flattened().iter().zip(peaks) {
+                self.waiting += &format!(",{value:e}");
+                if value.abs() > peak.value.abs() {
+                    *peak = Peak { value: *value, time: state.time };
+                }
+            }
+        }
+        self.waiting.push('\n');
+    }
+
+    pub fn flush(&mut self) -> Result<()> {
+        let lines = std::mem::take(&mut self.waiting);
+        self.file.write_all(lines.as_bytes()).map_err(|e| file::not_written(&self.path, &e))
+    }
+
+    /// Per probe and component: `{"A": {"ux": {"value", "time"}, ...}, ...}`.
+    pub fn peaks(&self) -> serde_json::Map<String, serde_json::Value> {
+        let of_probe = |peaks: &[Peak; 6]| -> serde_json::Map<String, serde_json::Value> {
+            COMPONENTS.iter().zip(peaks).map(|(c, p)| (c.to_string(), serde_json::json!(p))).collect()
+        };
+        self.probes.iter().zip(&self.peaks).map(|(p, peaks)| (p.name.clone(), of_probe(peaks).into())).collect()
+    }
+}

@@ -1,0 +1,94 @@
+//! The time series for ParaView: a `.vtu` a frame and the `.pvd` that gives them their times.
+//!
+//! Written by a thread of its own. Each frame is renamed into place before the `.pvd` names it, so the series is valid
+//! at any moment.
+
+use super::file;
+use super::frame::{Frame, Grid};
+use crate::{Error, Result};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// Frames that may wait while one is written: enough to smooth, few enough for memory.
+const WAITING: usize = 4;
+
+pub struct Series {
+    sender: SyncSender<Frame>,
+    writer: JoinHandle<Result<Written>>,
+}
+
+/// What the thread did.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Written {
+    pub frames: usize,
+    /// time spent on stresses, compression and files
+    pub busy: Duration,
+}
+
+impl Series {
+    /// Starts the thread; `folder` holds NAME.pvd and frames/.
+    pub fn start(folder: &Path, name: &str, grid: Grid) -> Result<Series> {
+        file::create_folder(&folder.join("frames"))?;
+        let target = Target { folder: folder.into(), name: name.into() };
+        target.write_index(&[])?;
+        let (sender, receiver) = sync_channel(WAITING);
+        let writer = std::thread::spawn(move || target.write_all(&grid, &receiver));
+        Ok(Series { sender, writer })
+    }
+
+    /// Hands a frame over; waits where too many wait already. An error of the thread is told by [`Series::finish`].
+    pub fn push(&self, frame: Frame) -> bool {
+        self.sender.send(frame).is_ok()
+    }
+
+    /// Waits until all frames are on disk.
+    pub fn finish(self) -> Result<Written> {
+        drop(self.sender);
+        self.writer.join().unwrap_or_else(|_| Err(Error::input("the thread that writes frames broke down")))
+    }
+}
+
+struct Target {
+    folder: PathBuf,
+    name: String,
+}
+
+impl Target {
+    fn write_all(&self, grid: &Grid, frames: &Receiver<Frame>) -> Result<Written> {
+        let mut times = Vec::new();
+        let mut busy = Duration::ZERO;
+        for frame in frames {
+            let start = Instant::now();
+            file::replace(&self.folder.join(self.frame_path(times.len())), &grid.vtu(&frame)?)?;
+            times.push(frame.time);
+            self.write_index(&times)?;
+            busy += start.elapsed();
+        }
+        Ok(Written { frames: times.len(), busy })
+    }
+
+    /// Seen from the `.pvd`.
+    fn frame_path(&self, number: usize) -> String {
+        format!("frames/{}_{number:05}.vtu", self.name)
+    }
+
+    fn write_index(&self, times: &[f64]) -> Result<()> {
+        let frame = |(i, time): (usize, &f64)| {
+            let path = escaped(&self.frame_path(i));
+            format!("    <DataSet timestep=\"{time:e}\" part=\"0\" file=\"{path}\"/>\n")
+        };
+        let frames: String = times.iter().enumerate().map(frame).collect();
+        let index = format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  \
+             <Collection>\n{frames}  </Collection>\n</VTKFile>\n"
+        );
+        file::replace(&self.folder.join(format!("{}.pvd", self.name)), index.as_bytes())
+    }
+}
+
+/// The name of a case may hold what XML does not allow in an attribute.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}

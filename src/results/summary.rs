@@ -1,0 +1,160 @@
+//! `summary.json`: what went in, what came out, what it cost.
+
+use crate::solve::energy::{Energies, Ledger};
+use crate::solve::interface::Interface;
+use crate::solve::system::{Rayleigh, State};
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    /// "done", "no_convergence" or "interrupted"
+    pub status: &'static str,
+    pub title: String,
+    pub inputs: Inputs,
+    pub counts: Counts,
+    pub frequencies_hz: Vec<f64>,
+    pub rayleigh: Rayleigh,
+    /// computed steps, those of cut steps counted too
+    pub steps: usize,
+    /// Newton iterations of all steps
+    pub iterations: usize,
+    pub frames: usize,
+    pub contact: ContactRecord,
+    pub probes: Vec<ProbePlace>,
+    pub peaks: Map<String, Value>,
+    pub energy: EnergyRecord,
+    pub timing: Timing,
+    pub warnings: Vec<String>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+pub struct Inputs {
+    pub case: String,
+    pub case_sha256: String,
+    pub mesh: String,
+    pub mesh_sha256: String,
+    pub bonded: bool,
+    pub coralpipe: &'static str,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Counts {
+    pub nodes: usize,
+    pub elements: usize,
+    pub joints: usize,
+    pub unknowns: usize,
+}
+
+impl Summary {
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("numbers, strings and lists are always JSON") + "\n"
+    }
+
+    /// For the screen: frequencies, peaks, contact, energy, cost.
+    pub fn table(&self) -> String {
+        let frequencies: Vec<String> = self.frequencies_hz.iter().map(|f| format!("{f:.3}")).collect();
+        let mut text = format!("frequencies       {} Hz\n", frequencies.join("  "));
+        for (probe, peaks) in &self.peaks {
+            let peak = |component: &str, scale: f64, unit: &str| {
+                let of = |key: &str| peaks[component][key].as_f64().unwrap_or(f64::NAN);
+                format!("{component} {:9.4} {unit} at {:6.2} ms", scale * of("value"), 1e3 * of("time"))
+            };
+            let [x, y] = [peak("ux", 1e3, "mm"), peak("uy", 1e3, "mm")];
+            text += &format!("peak {probe:<12} {x}   {y}   {}\n", peak("ay", 1., "m/s2"));
+        }
+        let c = &self.contact;
+        text += &format!(
+            "contact           gap {:.4} mm, slip {:.4} mm, at most {} points open and {} slipping\n",
+            1e3 * c.max_open,
+            1e3 * c.max_slip,
+            c.max_open_points,
+            c.max_slipping_points
+        );
+        text += &format!("energy error      {:.1e} of the peak\n", self.energy.max_relative_error);
+        let t = &self.timing;
+        text + &format!(
+            "{} steps, {} iterations in {:.2} s (mesh {:.2}, set-up {:.2}, factor {:.2}, frames {:.2}; all {:.2} s)\n",
+            self.steps, self.iterations, t.steps_s, t.mesh_s, t.setup_s, t.factor_s, t.output_s, t.total_s
+        )
+    }
+}
+
+/// Where a probe is, and its row in the frames.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProbePlace {
+    pub name: String,
+    pub node: usize,
+    /// [m]
+    pub x: f64,
+    pub y: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EnergyRecord {
+    /// largest |residual| over the largest stored energy
+    pub max_relative_error: f64,
+    /// largest stored energy [J/m]
+    pub peak: f64,
+    /// the ledger's last line [J/m]
+    pub last: Energies,
+}
+
+impl From<&Ledger> for EnergyRecord {
+    fn from(ledger: &Ledger) -> Self {
+        EnergyRecord { max_relative_error: ledger.max_relative_error(), peak: ledger.peak, last: ledger.now }
+    }
+}
+
+/// Wall times [s].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Timing {
+    pub mesh_s: f64,
+    pub setup_s: f64,
+    pub factor_s: f64,
+    pub steps_s: f64,
+    /// time of the thread that writes frames, most of it beside the steps
+    pub output_s: f64,
+    pub total_s: f64,
+}
+
+/// What the joints went through.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ContactRecord {
+    /// widest gap [m]
+    pub max_open: f64,
+    /// largest plastic slip of a closed joint [m]
+    pub max_slip: f64,
+    /// joint points whose status changed from one step to the next, summed
+    pub status_changes: usize,
+    /// most joint points open, and slipping, at one time
+    pub max_open_points: usize,
+    pub max_slipping_points: usize,
+    /// steps that had to be cut
+    pub cut_steps: usize,
+}
+
+/// How many joint points are open, and how many slip.
+pub fn open_and_slipping(state: &State) -> (usize, usize) {
+    let open = state.joints.iter().filter(|j| j.status.is_open()).count();
+    let slipping = state.joints.iter().filter(|j| j.status.is_slipping()).count();
+    (open, slipping)
+}
+
+impl ContactRecord {
+    pub fn after(self, interface: &Interface, old: &State, new: &State, jumps: &[f64]) -> ContactRecord {
+        let points = interface.points.iter().zip(&new.joints);
+        let gaps = points.clone().map(|(p, _)| interface.local(p, jumps)[1] + p.law.gap);
+        let slips = points.filter(|(_, j)| !j.status.is_open()).map(|(_, j)| j.slip.abs());
+        let changes = old.joints.iter().zip(&new.joints).filter(|(o, n)| o.status != n.status).count();
+        let (open, slipping) = open_and_slipping(new);
+        ContactRecord {
+            max_open: gaps.fold(self.max_open, f64::max),
+            max_slip: slips.fold(self.max_slip, f64::max),
+            status_changes: self.status_changes + changes,
+            max_open_points: self.max_open_points.max(open),
+            max_slipping_points: self.max_slipping_points.max(slipping),
+            cut_steps: self.cut_steps,
+        }
+    }
+}

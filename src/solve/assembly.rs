@@ -1,0 +1,107 @@
+//! From elements to the matrices and load vectors of the unknowns: K = sum T' k T.
+
+use super::unknowns::Unknowns;
+use crate::model::case::Mass;
+use crate::model::resolve::{Border, Load, Model, Target};
+use crate::physics::element::{self, Integral};
+use nalgebra::DMatrix;
+use sprs::{CsMat, TriMat};
+
+/// K and M of all faces on one pattern; both triangles stored.
+pub fn stiffness_and_mass(model: &Model, unknowns: &Unknowns) -> (CsMat<f64>, CsMat<f64>) {
+    let shape = (unknowns.count, unknowns.count);
+    let (mut k, mut m) = (TriMat::new(shape), TriMat::new(shape));
+    for (cell, material) in model.faces() {
+        let nodes = &model.mesh.cells[cell].nodes;
+        let at = corners(model, nodes);
+        let shape = model.mesh.cells[cell].shape;
+        let for_stiffness = element::points(shape, &at, Integral::Stiffness);
+        let for_mass = element::points(shape, &at, Integral::Mass);
+        let mass = match model.mass {
+            Mass::Consistent => element::mass(&for_mass, material.density),
+            Mass::Lumped => element::lumped_mass(&for_mass, material.density),
+        };
+        let stiffness = element::stiffness(&for_stiffness, &material.plane_strain());
+        scatter(&mut k, &mut m, unknowns, nodes, &stiffness, &mass);
+    }
+    (k.to_csr(), m.to_csr())
+}
+
+/// Adds T' k T and T' m T of one element, entry by entry alike, zeros too: that keeps the patterns the same.
+fn scatter(
+    k: &mut TriMat<f64>,
+    m: &mut TriMat<f64>,
+    unknowns: &Unknowns,
+    nodes: &[usize],
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+) {
+    let row = |local: usize| unknowns.row(nodes[local / 2], local % 2);
+    for a in 0..stiffness.nrows() {
+        for b in 0..stiffness.ncols() {
+            for &(i, sign_i) in row(a) {
+                for &(j, sign_j) in row(b) {
+                    k.add_triplet(i, j, sign_i * sign_j * stiffness[(a, b)]);
+                    m.add_triplet(i, j, sign_i * sign_j * mass[(a, b)]);
+                }
+            }
+        }
+    }
+}
+
+/// f = T' (integral of N' t over the loaded lines, or the forces on the points) [N per unit of the pulse].
+pub fn load(model: &Model, unknowns: &Unknowns, load: &Load) -> Vec<f64> {
+    let mut f = vec![0.; unknowns.count];
+    let mut add = |node: usize, force: [f64; 2]| {
+        for axis in 0..2 {
+            for &(i, sign) in unknowns.row(node, axis) {
+                f[i] += sign * force[axis];
+            }
+        }
+    };
+    match &load.target {
+        Target::Pressure { lines } => {
+            for line in lines {
+                let forces = line_integral(model, line, |[tx, ty]| [-ty, tx]);
+                line.nodes.iter().zip(forces).for_each(|(&node, force)| add(node, force));
+            }
+        }
+        Target::Traction { lines, direction: [dx, dy] } => {
+            for line in lines {
+                let forces = line_integral(model, line, |[tx, ty]| [dx * tx.hypot(ty), dy * tx.hypot(ty)]);
+                line.nodes.iter().zip(forces).for_each(|(&node, force)| add(node, force));
+            }
+        }
+        Target::BodyForce { cells, direction: [dx, dy] } => {
+            for cell in cells.iter().map(|&c| &model.mesh.cells[c]) {
+                let points = element::points(cell.shape, &corners(model, &cell.nodes), Integral::Mass);
+                for (local, &node) in cell.nodes.iter().enumerate() {
+                    let volume: f64 = points.iter().map(|p| p.n[local] * p.dv).sum();
+                    add(node, [dx * volume, dy * volume]);
+                }
+            }
+        }
+        Target::Force { nodes, direction } => nodes.iter().for_each(|&node| add(node, *direction)),
+    }
+    f
+}
+
+fn corners(model: &Model, nodes: &[usize]) -> Vec<[f64; 2]> {
+    nodes.iter().map(|&n| model.mesh.points[n]).collect()
+}
+
+/// Integral of N g(dx/dr) dr over a line; a pressure's g turns the tangent to the left, where the solid lies.
+fn line_integral(model: &Model, line: &Border, g: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+    let at = corners(model, &line.nodes);
+    let mut forces = vec![[0.; 2]; at.len()];
+    for (r, weight) in element::gauss_3() {
+        let functions = line.shape.functions([r, 0.]);
+        let tangent = [0, 1].map(|i| at.iter().zip(&functions).map(|(x, f)| f.1[0] * x[i]).sum::<f64>());
+        let value = g(tangent);
+        for (force, (n, _)) in forces.iter_mut().zip(&functions) {
+            force[0] += n * value[0] * weight;
+            force[1] += n * value[1] * weight;
+        }
+    }
+    forces
+}

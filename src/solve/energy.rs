@@ -1,0 +1,114 @@
+//! The energy ledger: work of loads = kinetic + strain + joint-elastic + damping + friction + contact + residual.
+//!
+//! For the average acceleration the equation of motion at both ends of a step gives, exactly,
+//! (R_n + R_n+1)'du/2 = change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints'
+//! share is then told apart: what they store, what friction turns to heat, and `contact`: the rest, which comes from joints
+//! that open, close or begin to slip inside a step, and from joint damping where the case asks for it.
+//! The residual is round-off; with other Newmark parameters it is their numerical damping.
+
+use super::system::{State, System, product};
+
+/// Energies since the start, per metre of pipe [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct Energies {
+    pub work: f64,
+    pub kinetic: f64,
+    pub strain: f64,
+    pub joint: f64,
+    pub damping: f64,
+    pub friction: f64,
+    pub contact: f64,
+    pub residual: f64,
+}
+
+#[derive(Debug, Clone)]
+pub struct Ledger {
+    pub now: Energies,
+    /// the largest kinetic + strain + joint energy so far
+    pub peak: f64,
+    /// the largest |residual| so far
+    worst: f64,
+    /// forces at the last state: loads and joints
+    load: Vec<f64>,
+    joint_force: Vec<f64>,
+}
+
+impl Ledger {
+    pub fn start(system: &System, state: &State) -> Ledger {
+        let now = stored(system, state);
+        Ledger {
+            now: Energies { work: now.kinetic + now.strain + now.joint, ..now },
+            peak: now.kinetic + now.strain + now.joint,
+            worst: 0.,
+            load: system.load(state.time),
+            joint_force: joint_force(system, state),
+        }
+    }
+
+    /// The ledger after one accepted step.
+    pub fn after(&self, system: &System, old: &State, new: &State) -> Ledger {
+        let dt = new.time - old.time;
+        let load = system.load(new.time);
+        let joint_force = joint_force(system, new);
+        let du: Vec<f64> = new.q.iter().zip(&old.q).map(|(n, o)| n - o).collect();
+        let mean_velocity: Vec<f64> = new.v.iter().zip(&old.v).map(|(n, o)| (n + o) / 2.).collect();
+
+        let work = mean_dot(&self.load, &load, &du);
+        let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
+        let damping = dt * dot(&mean_velocity, &product(&system.damping, &mean_velocity));
+        let friction = friction(system, old, new);
+        let stored = stored(system, new);
+        let mut now = Energies {
+            work: self.now.work + work,
+            damping: self.now.damping + damping,
+            friction: self.now.friction + friction,
+            contact: self.now.contact + joint_work - (stored.joint - self.now.joint) - friction,
+            ..stored
+        };
+        now.residual = now.work - (now.kinetic + now.strain + now.joint + now.damping + now.friction + now.contact);
+        Ledger {
+            peak: self.peak.max(now.kinetic + now.strain + now.joint),
+            worst: self.worst.max(now.residual.abs()),
+            now,
+            load,
+            joint_force,
+        }
+    }
+
+    /// Largest |residual| over the largest stored energy.
+    pub fn max_relative_error(&self) -> f64 {
+        if self.worst == 0. { 0. } else { self.worst / self.peak }
+    }
+}
+
+/// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store.
+fn stored(system: &System, state: &State) -> Energies {
+    let jumps = system.jumps(&state.q);
+    let joint = |(point, joint): (&super::interface::JointPoint, &super::interface::JointState)| {
+        point.area * point.law.stored_energy(system.interface.local(point, jumps), joint.slip)
+    };
+    Energies {
+        kinetic: dot(&state.v, &product(&system.mass, &state.v)) / 2.,
+        strain: dot(&state.q, &product(&system.stiffness, &state.q)) / 2.,
+        joint: system.interface.points.iter().zip(&state.joints).map(joint).sum(),
+        ..Energies::default()
+    }
+}
+
+/// tau times the growth of plastic slip, over the area.
+fn friction(system: &System, old: &State, new: &State) -> f64 {
+    let joints = old.joints.iter().zip(&new.joints).zip(&system.interface.points);
+    joints.map(|((o, n), p)| p.area * n.traction[0] * (n.slip - o.slip)).sum()
+}
+
+fn joint_force(system: &System, state: &State) -> Vec<f64> {
+    system.interface.forces(state.joints.iter().map(|j| j.traction))
+}
+
+fn mean_dot(a: &[f64], b: &[f64], x: &[f64]) -> f64 {
+    (0..x.len()).map(|i| (a[i] + b[i]) / 2. * x[i]).sum()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,152 @@
+//! Joint elements between ground and bodies, as integration points that see the jumps of their node pairs.
+//!
+//! Virtual work: r(j) = sum over points of area N' R' t(R N j), R turning global axes into (tangential, normal).
+
+use crate::model::case::Integration;
+use crate::model::mesh::Mesh;
+use crate::model::split::{Joint, Pair};
+use crate::physics::joint::{JointLaw, Response, Status};
+use nalgebra::{Matrix2, Vector2};
+
+/// Points on [-1, 1] and weights for a joint line of 2 or 3 nodes: Lobatto at the nodes (Simpson's rule for 3).
+///
+/// Gauss at the middle is the paper's; it leaves zig-zag jumps without energy on rings with an even number of nodes.
+fn rule(integration: Integration, nodes: usize) -> Vec<(f64, f64)> {
+    match (integration, nodes) {
+        (Integration::Gauss1, _) => vec![(0., 2.)],
+        (Integration::Lobatto, 2) => vec![(-1., 1.), (1., 1.)],
+        (Integration::Lobatto, _) => vec![(-1., 1. / 3.), (0., 4. / 3.), (1., 1. / 3.)],
+    }
+}
+
+/// An integration point of a joint element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointPoint {
+    /// which joint element of the model
+    pub joint: usize,
+    pub law: JointLaw,
+    /// (pair, N) of the pairs that share in the jump here
+    pub share: Vec<(usize, f64)>,
+    /// unit normal from the body into the ground
+    pub normal: [f64; 2],
+    /// length times 1 m of depth that it stands for [m^2]
+    pub area: f64,
+    /// where it lies [m]
+    pub at: [f64; 2],
+}
+
+impl JointPoint {
+    /// R: rows are the tangential axis (-n_y, n_x) and the normal.
+    pub fn rotation(&self) -> Matrix2<f64> {
+        let [nx, ny] = self.normal;
+        Matrix2::new(-ny, nx, nx, ny)
+    }
+}
+
+/// What a joint point remembers of the last converged step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointState {
+    /// plastic slip [m]
+    pub slip: f64,
+    pub status: Status,
+    /// (tau, sigma_n) [Pa]
+    pub traction: Vector2<f64>,
+}
+
+impl From<&Response> for JointState {
+    fn from(r: &Response) -> Self {
+        JointState { slip: r.slip, status: r.status, traction: r.traction }
+    }
+}
+
+/// All joint points, over the vector of jumps: the trailing unknowns, `count` of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interface {
+    pub count: usize,
+    pub points: Vec<JointPoint>,
+    /// for each pair and axis its place in the vector of jumps; none where supports hold both nodes
+    places: Vec<[Option<usize>; 2]>,
+}
+
+impl Interface {
+    /// `laws` per joint element; `jumps` of each pair as unknowns that start at `first_jump`.
+    pub fn new(
+        mesh: &Mesh,
+        pairs: &[Pair],
+        joints: &[Joint],
+        laws: &[(JointLaw, Integration)],
+        jumps: &[[Option<usize>; 2]],
+        first_jump: usize,
+    ) -> Interface {
+        let points = joints
+            .iter()
+            .zip(laws)
+            .enumerate()
+            .flat_map(|(number, (joint, &(law, integration)))| {
+                let at: Vec<[f64; 2]> = joint.pairs.iter().map(|&p| mesh.points[pairs[p].ground]).collect();
+                rule(integration, joint.pairs.len())
+                    .into_iter()
+                    .map(move |(r, w)| joint_point(number, joint, law, &at, r, w))
+            })
+            .collect();
+        let places: Vec<_> = jumps.iter().map(|j| j.map(|q| q.map(|q| q - first_jump))).collect();
+        Interface { count: places.iter().flatten().flatten().count(), points, places }
+    }
+
+    /// R N j: (tangential, normal) jump at a point [as j].
+    pub fn local(&self, point: &JointPoint, j: &[f64]) -> Vector2<f64> {
+        let component = |pair: usize, axis: usize| self.places[pair][axis].map_or(0., |i| j[i]);
+        let global: Vector2<f64> =
+            point.share.iter().map(|&(p, n)| n * Vector2::new(component(p, 0), component(p, 1))).sum();
+        point.rotation() * global
+    }
+
+    /// r(j) [N] of the points' tractions.
+    pub fn forces(&self, tractions: impl Iterator<Item = Vector2<f64>>) -> Vec<f64> {
+        let mut r = vec![0.; self.count];
+        for (point, traction) in self.points.iter().zip(tractions) {
+            let force = point.rotation().transpose() * traction * point.area;
+            for (i, axis, n) in self.entries(point) {
+                r[i] += n * force[axis];
+            }
+        }
+        r
+    }
+
+    /// Calls `add(row, column, value)` for dr/dj = sum area N' R' D R N [N/m], D per point.
+    pub fn each_tangent(&self, tangents: impl Iterator<Item = Matrix2<f64>>, mut add: impl FnMut(usize, usize, f64)) {
+        for (point, d) in self.points.iter().zip(tangents) {
+            let k = point.rotation().transpose() * d * point.rotation() * point.area;
+            for (i, axis_i, n_i) in self.entries(point) {
+                for (j, axis_j, n_j) in self.entries(point) {
+                    add(i, j, n_i * n_j * k[(axis_i, axis_j)]);
+                }
+            }
+        }
+    }
+
+    /// (place in j, axis, N) of every jump component a point sees.
+    fn entries<'a>(&'a self, point: &'a JointPoint) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+        point
+            .share
+            .iter()
+            .flat_map(move |&(pair, n)| (0..2).filter_map(move |axis| self.places[pair][axis].map(|i| (i, axis, n))))
+    }
+}
+
+/// The joint runs anticlockwise round the body, so the outward normal is the tangent turned by -90 degrees.
+fn joint_point(number: usize, joint: &Joint, law: JointLaw, at: &[[f64; 2]], r: f64, weight: f64) -> JointPoint {
+    let functions = joint.shape.functions([r, 0.]);
+    let sum = |f: &dyn Fn(usize) -> f64| (0..at.len()).map(f).sum::<f64>();
+    let tangent = [0, 1].map(|i| sum(&|a| functions[a].1[0] * at[a][i]));
+    let det = tangent[0].hypot(tangent[1]);
+    let share = joint.pairs.iter().zip(&functions).map(|(&p, f)| (p, f.0));
+    JointPoint {
+        joint: number,
+        law,
+        share: share.filter(|(_, n)| *n != 0.).collect(),
+        normal: [tangent[1] / det, -tangent[0] / det],
+        area: det * weight,
+        at: [0, 1].map(|i| sum(&|a| functions[a].0 * at[a][i])),
+    }
+}

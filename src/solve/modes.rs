@@ -1,0 +1,59 @@
+//! Natural frequencies with the interfaces closed and sticking, and Rayleigh's alpha and beta from two of them.
+
+use super::system::{Rayleigh, System, combine};
+use crate::sparse::{Symbolic, smallest_modes};
+use crate::{Error, Result};
+use sprs::CsMat;
+use std::f64::consts::PI;
+
+/// A natural mode: K phi = omega^2 M phi, phi'M phi = 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NaturalMode {
+    /// [Hz]
+    pub frequency: f64,
+    /// shape over the unknowns [1/sqrt(kg)]
+    pub shape: Vec<f64>,
+}
+
+/// The lowest `count` modes, in rising order.
+///
+/// None is skipped: the eigenvalues below the last one are counted by the negative pivots of K - sigma M (Sylvester).
+pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Result<Vec<NaturalMode>> {
+    let stiffness = system.closed_stiffness();
+    let shift = rigid_shift(&stiffness, &system.mass);
+    let factor = symbolic
+        .factor(&combine(&[(1., &stiffness), (shift, &system.mass)]))
+        .map_err(|e| Error::input(format!("the stiffness matrix is not positive definite at unknown {}", e.unknown)))?;
+    let modes = smallest_modes(&factor, shift, &system.mass, count)?;
+    let frequency = |lambda: f64| lambda.max(0.).sqrt() / (2. * PI);
+    Ok(modes.into_iter().map(|m| NaturalMode { frequency: frequency(m.lambda), shape: m.shape }).collect())
+}
+
+/// Parts that nothing holds move at 0 Hz; this shift [1/s^2] far below the mesh's own frequencies keeps K definite.
+fn rigid_shift(stiffness: &CsMat<f64>, mass: &CsMat<f64>) -> f64 {
+    let trace = |a: &CsMat<f64>| a.diag().data().iter().sum::<f64>();
+    1e-9 * trace(stiffness) / trace(mass)
+}
+
+/// alpha and beta that give modes of the frequencies f_1, f_2 [Hz] the damping ratio xi:
+/// beta = 2 xi / (omega_1 + omega_2), alpha = omega_1 omega_2 beta.
+pub fn rayleigh(ratio: f64, [f_1, f_2]: [f64; 2]) -> Rayleigh {
+    let (omega_1, omega_2) = (2. * PI * f_1, 2. * PI * f_2);
+    let beta = 2. * ratio / (omega_1 + omega_2);
+    Rayleigh { alpha: omega_1 * omega_2 * beta, beta }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// xi = 5 % at 5 and 15 Hz, to the digits of the textbook's result.
+    #[test]
+    fn rayleigh_damping_has_its_ratio_at_both_frequencies() {
+        let Rayleigh { alpha, beta } = rayleigh(0.05, [5., 15.]);
+        assert!((alpha - 2.356194).abs() < 5e-7 && (beta - 7.957747e-4).abs() < 5e-11);
+        let xi = |f: f64| alpha / (4. * PI * f) + beta * PI * f;
+        assert!((xi(5.) - 0.05).abs() < 1e-15 && (xi(15.) - 0.05).abs() < 1e-15);
+        assert!((xi(50.) - 0.129).abs() < 5e-4);
+    }
+}

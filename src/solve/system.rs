@@ -1,0 +1,138 @@
+//! The equations M a + C v + K u + r(j) = f(t) in the unknowns q, and the state that moves.
+
+use super::assembly;
+use super::interface::{Interface, JointState};
+use super::unknowns::Unknowns;
+use crate::Result;
+use crate::model::resolve::Model;
+use crate::physics::pulse::Pulse;
+use crate::sparse::multiply;
+use serde::Serialize;
+use sprs::CsMat;
+
+/// K, M and C hold the bodies only and share one pattern, so that sums of them are sums of their values.
+pub struct System {
+    pub unknowns: Unknowns,
+    /// [N/m]
+    pub stiffness: CsMat<f64>,
+    /// [kg]
+    pub mass: CsMat<f64>,
+    /// [N s/m]; zero until [`System::with_damping`]
+    pub damping: CsMat<f64>,
+    /// beta of the joints' own damping, where the case asks for it [s]
+    pub joint_beta: Option<f64>,
+    pub interface: Interface,
+    /// spatial vector [N per unit of the pulse] and history
+    loads: Vec<(Vec<f64>, Pulse)>,
+}
+
+/// Rayleigh damping C = alpha M + beta K.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Rayleigh {
+    /// [1/s]
+    pub alpha: f64,
+    /// [s]
+    pub beta: f64,
+}
+
+/// Displacement, velocity and acceleration of the unknowns at a time, and what the joints remember.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// [s]
+    pub time: f64,
+    /// [m], [m/s], [m/s^2]
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub a: Vec<f64>,
+    pub joints: Vec<JointState>,
+}
+
+impl System {
+    pub fn new(model: &Model) -> Result<System> {
+        let unknowns = Unknowns::new(&model.mesh, &model.fixed, &model.pairs)?;
+        let (stiffness, mass) = assembly::stiffness_and_mass(model, &unknowns);
+        let interface =
+            Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump);
+        let loads = model.loads.iter().map(|load| (assembly::load(model, &unknowns, load), load.pulse.clone()));
+        Ok(System {
+            damping: scaled(&mass, 0.),
+            joint_beta: None,
+            loads: loads.collect(),
+            unknowns,
+            stiffness,
+            mass,
+            interface,
+        })
+    }
+
+    /// C = alpha M + beta K of the bodies; with `joints` beta also damps the closed joints, as the paper's C(U).
+    pub fn with_damping(self, Rayleigh { alpha, beta }: Rayleigh, joints: bool) -> System {
+        System {
+            damping: combine(&[(alpha, &self.mass), (beta, &self.stiffness)]),
+            joint_beta: joints.then_some(beta),
+            ..self
+        }
+    }
+
+    /// f(t) [N].
+    pub fn load(&self, time: f64) -> Vec<f64> {
+        let mut f = vec![0.; self.unknowns.count];
+        for (vector, pulse) in &self.loads {
+            let factor = pulse.at(time);
+            f.iter_mut().zip(vector).for_each(|(f, r)| *f += factor * r);
+        }
+        f
+    }
+
+    /// The trailing part of a vector: the jumps.
+    pub fn jumps<'a>(&self, q: &'a [f64]) -> &'a [f64] {
+        &q[self.unknowns.first_jump..]
+    }
+
+    /// K with every joint closed and sticking: the reference of natural frequencies.
+    pub fn closed_stiffness(&self) -> CsMat<f64> {
+        let mut closed = self.stiffness.clone();
+        let first = self.unknowns.first_jump;
+        let per_point = self.interface.points.iter().map(|p| p.law.closed_stiffness());
+        self.interface.each_tangent(per_point, |i, j, value| {
+            *closed.get_mut(first + i, first + j).expect("pairs of one joint element share a body element") += value;
+        });
+        closed
+    }
+}
+
+impl State {
+    pub fn at_rest(system: &System) -> State {
+        let zero = vec![0.; system.unknowns.count];
+        State {
+            time: 0.,
+            q: zero.clone(),
+            v: zero.clone(),
+            a: zero,
+            joints: vec![JointState::default(); system.interface.points.len()],
+        }
+    }
+}
+
+/// Sum of factor times matrix, all on one pattern.
+pub fn combine(terms: &[(f64, &CsMat<f64>)]) -> CsMat<f64> {
+    let mut sum = scaled(terms[0].1, terms[0].0);
+    for (factor, matrix) in &terms[1..] {
+        debug_assert_eq!(sum.indices(), matrix.indices(), "one pattern for all");
+        sum.data_mut().iter_mut().zip(matrix.data()).for_each(|(s, m)| *s += factor * m);
+    }
+    sum
+}
+
+/// A x.
+pub fn product(a: &CsMat<f64>, x: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.; a.rows()];
+    multiply(a, x, &mut y);
+    y
+}
+
+fn scaled(matrix: &CsMat<f64>, factor: f64) -> CsMat<f64> {
+    let mut scaled = matrix.clone();
+    scaled.data_mut().iter_mut().for_each(|v| *v *= factor);
+    scaled
+}

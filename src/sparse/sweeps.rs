@@ -1,0 +1,261 @@
+//! The two sweeps of a solve, x <- L^-1 x and x <- L^-T x, over L packed in the order in which each reads it.
+//!
+//! A sweep costs the reading of L and little else, so every value is read once, in ascending order of memory: the
+//! forward copy holds blocks of rows, the backward copy blocks of columns from the last to the first. Read backwards
+//! from one copy, L comes several times slower. A block of `W` rows (or columns) is interleaved, so that `W` sums
+//! run at once. Diagonal entries are stored inverted.
+
+use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+
+use super::Factor;
+
+/// Supernodes: neighbouring columns of L that have the same rows below their triangle.
+pub struct Panels {
+    /// First column of each supernode, and the number of unknowns at the end.
+    columns: Vec<usize>,
+    /// Where the rows of each supernode begin and end in `rows`.
+    start: Vec<usize>,
+    /// The rows of each supernode, ascending: its own columns, then those below.
+    rows: Vec<usize>,
+    /// Where each supernode begins and ends in faer's values: dense, column by column, upper triangle included.
+    dense: Vec<usize>,
+}
+
+impl Panels {
+    pub fn new(supernodes: &SymbolicSupernodalCholesky<usize>) -> Self {
+        let mut columns = supernodes.supernode_begin().to_vec();
+        columns.push(supernodes.nrows());
+        let (mut start, mut rows) = (vec![0], Vec::new());
+        for s in 0..supernodes.n_supernodes() {
+            rows.extend(columns[s]..columns[s + 1]);
+            rows.extend_from_slice(supernodes.supernode(s).pattern());
+            start.push(rows.len());
+        }
+        Panels { columns, start, rows, dense: supernodes.col_ptr_for_val().to_vec() }
+    }
+
+    pub fn unknowns(&self) -> usize {
+        self.columns[self.count()]
+    }
+
+    pub fn count(&self) -> usize {
+        self.columns.len() - 1
+    }
+
+    /// Number of columns of supernode `s`.
+    pub fn width(&self, s: usize) -> usize {
+        self.columns[s + 1] - self.columns[s]
+    }
+
+    /// Rows of supernode `s`: its own columns first.
+    pub fn rows(&self, s: usize) -> &[usize] {
+        &self.rows[self.start[s]..self.start[s + 1]]
+    }
+
+    /// Values of supernode `s` out of faer's, column by column.
+    pub fn dense<'a>(&self, s: usize, values: &'a [f64]) -> &'a [f64] {
+        &values[self.dense[s]..self.dense[s + 1]]
+    }
+
+    pub fn pack_forward(&self, values: &[f64]) -> Vec<f64> {
+        let mut packed = Vec::with_capacity(self.entries());
+        for s in 0..self.count() {
+            let (height, panel) = (self.rows(s).len(), self.dense(s, values));
+            self.each_forward(s, |i, j| packed.push(stored(panel[j * height + i], i == j)));
+        }
+        packed
+    }
+
+    pub fn pack_backward(&self, values: &[f64]) -> Vec<f64> {
+        let mut packed = Vec::with_capacity(self.entries());
+        for s in (0..self.count()).rev() {
+            let (height, panel) = (self.rows(s).len(), self.dense(s, values));
+            self.each_backward(s, |i, j| packed.push(stored(panel[j * height + i], i == j)));
+        }
+        packed
+    }
+
+    fn entries(&self) -> usize {
+        (0..self.count()).map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2).sum()
+    }
+
+    /// Visits the entries (row, column) of supernode `s` in the order of the forward copy, counted inside it.
+    fn each_forward(&self, s: usize, mut visit: impl FnMut(usize, usize)) {
+        let (width, height) = (self.width(s), self.rows(s).len());
+        for (first, size) in blocks(0, width) {
+            (0..first).for_each(|j| (first..first + size).for_each(|i| visit(i, j)));
+            (first..first + size).for_each(|j| (j..first + size).for_each(|i| visit(i, j)));
+        }
+        for (first, size) in blocks(width, height) {
+            (0..width).for_each(|j| (first..first + size).for_each(|i| visit(i, j)));
+        }
+    }
+
+    /// Visits the entries (row, column) of supernode `s` in the order of the backward copy, counted inside it.
+    pub fn each_backward(&self, s: usize, mut visit: impl FnMut(usize, usize)) {
+        let (width, height) = (self.width(s), self.rows(s).len());
+        for (first, size) in blocks(0, width).rev() {
+            (first + size..height).for_each(|i| (first..first + size).for_each(|j| visit(i, j)));
+            (first..first + size).rev().for_each(|j| (j..first + size).for_each(|i| visit(i, j)));
+        }
+    }
+}
+
+fn stored(l: f64, diagonal: bool) -> f64 {
+    if diagonal { 1.0 / l } else { l }
+}
+
+/// Rows or columns that are summed at once: two registers of four numbers.
+const BLOCK: usize = 8;
+
+/// Cuts `from..to` into blocks (first, size): as many of `BLOCK` as fit, then the rest.
+fn blocks(from: usize, to: usize) -> impl DoubleEndedIterator<Item = (usize, usize)> {
+    (from..to).step_by(BLOCK).map(move |first| (first, BLOCK.min(to - first)))
+}
+
+/// Calls a function of the block size that is known when compiling.
+macro_rules! of_size {
+    ($size:expr, $f:ident($($argument:expr),*)) => {
+        match $size {
+            1 => $f::<1>($($argument),*),
+            2 => $f::<2>($($argument),*),
+            3 => $f::<3>($($argument),*),
+            4 => $f::<4>($($argument),*),
+            5 => $f::<5>($($argument),*),
+            6 => $f::<6>($($argument),*),
+            7 => $f::<7>($($argument),*),
+            _ => $f::<BLOCK>($($argument),*),
+        }
+    };
+}
+
+impl Factor {
+    /// x <- L^-1 x.
+    ///
+    /// # Panics
+    /// If `x` has not one entry for each unknown; likewise the functions below.
+    pub fn forward(&self, x: &mut [f64]) {
+        assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
+        let mut l = &self.forward[..];
+        for s in 0..self.panels.count() {
+            let (width, rows) = (self.panels.width(s), self.panels.rows(s));
+            for (first, size) in blocks(0, width) {
+                of_size!(size, solve_rows(&mut l, &mut x[rows[0]..], first));
+            }
+            for (first, size) in blocks(width, rows.len()) {
+                of_size!(size, subtract_rows(&mut l, x, &rows[..width], &rows[first..]));
+            }
+        }
+    }
+
+    /// x <- L^-T x.
+    pub fn backward(&self, x: &mut [f64]) {
+        assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
+        let mut l = &self.backward[..];
+        for s in (0..self.panels.count()).rev() {
+            let (width, rows) = (self.panels.width(s), self.panels.rows(s));
+            for (first, size) in blocks(0, width).rev() {
+                of_size!(size, solve_columns(&mut l, x, &rows[first..]));
+            }
+        }
+    }
+
+    /// x <- A^-1 x.
+    pub fn solve(&self, x: &mut [f64]) {
+        self.forward(x);
+        self.backward(x);
+    }
+}
+
+/// x_i <- (x_i - sum_j l_ij x_j) / l_ii for the rows i = first..first + W of a triangle, all j < i.
+fn solve_rows<const W: usize>(l: &mut &[f64], x: &mut [f64], first: usize) {
+    let (known, x) = x.split_at_mut(first);
+    let sums = interleaved_sums::<W>(take(l, W * first), known.iter().copied());
+    let mut block: [f64; W] = std::array::from_fn(|k| x[k] - sums[k]);
+    for j in 0..W {
+        let column = take(l, W - j);
+        block[j] *= column[0];
+        for i in j + 1..W {
+            block[i] -= column[i - j] * block[j];
+        }
+    }
+    x[..W].copy_from_slice(&block);
+}
+
+/// x_i <- x_i - sum_j l_ij x_j for the first W of the rows i, all columns j.
+fn subtract_rows<const W: usize>(l: &mut &[f64], x: &mut [f64], columns: &[usize], rows: &[usize]) {
+    let known = &x[columns[0]..][..columns.len()];
+    let sums = interleaved_sums::<W>(take(l, W * known.len()), known.iter().copied());
+    for (&i, sum) in rows.iter().zip(sums) {
+        x[i] -= sum;
+    }
+}
+
+/// x_j <- (x_j - sum_i l_ij x_i) / l_jj for the columns j that are the first W of the rows i, all i > j.
+fn solve_columns<const W: usize>(l: &mut &[f64], x: &mut [f64], rows: &[usize]) {
+    let (columns, below) = rows.split_at(W);
+    let sums = interleaved_sums::<W>(take(l, W * below.len()), below.iter().map(|&i| x[i]));
+    let x = &mut x[columns[0]..][..W];
+    let mut block: [f64; W] = std::array::from_fn(|k| x[k] - sums[k]);
+    for j in (0..W).rev() {
+        let column = take(l, W - j);
+        for i in j + 1..W {
+            block[j] -= column[i - j] * block[i];
+        }
+        block[j] *= column[0];
+    }
+    x.copy_from_slice(&block);
+}
+
+/// sum_k l[W k + i] x_k for i = 0..W.
+fn interleaved_sums<const W: usize>(l: &[f64], x: impl Iterator<Item = f64>) -> [f64; W] {
+    let mut sums = [0.0; W];
+    for (l, x) in l.chunks_exact(W).zip(x) {
+        for i in 0..W {
+            sums[i] += l[i] * x;
+        }
+    }
+    sums
+}
+
+/// Cuts the first `n` values off.
+fn take<'a>(l: &mut &'a [f64], n: usize) -> &'a [f64] {
+    let (taken, rest) = l.split_at(n);
+    *l = rest;
+    taken
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::sparse::testing::{dense, distance, grid_matrix, random};
+    use crate::sparse::{Symbolic, multiply};
+
+    #[test]
+    fn solve_gives_back_the_solution() {
+        for (nx, ny) in [(1, 1), (3, 2), (12, 7), (40, 33)] {
+            let a = grid_matrix(nx, ny, &[]);
+            let factor = Symbolic::new(&a).factor(&a).expect("positive definite");
+            let exact = random(a.rows(), 7);
+            let mut x = vec![0.0; a.rows()];
+            multiply(&a, &exact, &mut x);
+            factor.solve(&mut x);
+            // The smallest eigenvalue is 1 or more, the largest some tens.
+            assert!(distance(&x, &exact) < 1e-13, "{nx} x {ny}");
+        }
+    }
+
+    #[test]
+    fn each_sweep_is_that_of_the_dense_factor() {
+        let a = grid_matrix(14, 11, &[0, 1, 2]);
+        let factor = Symbolic::new(&a).factor(&a).expect("positive definite");
+        let l = dense(&a).cholesky().expect("positive definite").l();
+        let x = random(a.rows(), 1);
+        let lx = &l * nalgebra::DVector::from_column_slice(&x);
+        let ltx = l.transpose() * nalgebra::DVector::from_column_slice(&x);
+        let (mut forward, mut backward) = (lx.as_slice().to_vec(), ltx.as_slice().to_vec());
+        factor.forward(&mut forward);
+        factor.backward(&mut backward);
+        assert!(distance(&forward, &x) < 1e-13);
+        assert!(distance(&backward, &x) < 1e-13);
+    }
+}

@@ -1,0 +1,5 @@
+use super::run::Request;
+use crate::Result;
+pub fn command(_: &Request) -> Result<String> {
+    Ok(String::new())
+}

@@ -1,0 +1,35 @@
+//! `coralpipe modes`: natural frequencies with the interfaces closed and sticking, and their shapes.
+
+use super::prepare::Prepared;
+use super::run::{Loaded, Request, load};
+use super::screen::Screen;
+use crate::results::file;
+use crate::results::frame::{Frame, Grid};
+use crate::solve::modes::natural_modes;
+use crate::solve::system::State;
+use crate::{Error, Result};
+
+/// Prints a table and writes `modes/NAME_mode_1.vtu` ... into the results folder; shapes have phi'M phi = 1.
+pub fn command(request: &Request, count: usize) -> Result<String> {
+    if count == 0 {
+        return Err(Error::input("-n 0: ask for at least one mode"));
+    }
+    let screen = Screen::new(request.quiet);
+    let Loaded { case, meshed, model } = load(request)?;
+    screen.say(&meshed.told);
+    model.warnings.iter().for_each(|w| screen.warn(w));
+    let prepared = Prepared::new(model)?;
+    let modes = natural_modes(&prepared.system, &prepared.symbolic, count)?;
+
+    let folder = request.folder(&case).join("modes");
+    file::create_folder(&folder)?;
+    let grid = Grid::new(&prepared.model);
+    let mut table = String::from("mode  frequency [Hz]  file\n");
+    for (i, mode) in modes.iter().enumerate() {
+        let shape = State { q: mode.shape.clone(), ..State::at_rest(&prepared.system) };
+        let path = folder.join(format!("{}_mode_{}.vtu", case.name(), i + 1));
+        file::replace(&path, &grid.vtu(&Frame::of(&prepared.model, &prepared.system, &shape))?)?;
+        table += &format!("{:4}  {:14.6}  {}\n", i + 1, mode.frequency, path.display());
+    }
+    Ok(table)
+}

@@ -1,0 +1,170 @@
+//! Watches a run and writes what it sees: histories, frames, the status file, at the end the summary.
+
+use super::prepare::Prepared;
+use crate::Result;
+use crate::results::file;
+use crate::results::folder::Folder;
+use crate::results::frame::{Frame, Grid};
+use crate::results::histories::Histories;
+use crate::results::series::Series;
+use crate::results::summary::{
+    ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
+};
+use crate::solve::condensed::Step;
+use crate::solve::energy::Ledger;
+use crate::solve::system::State;
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Write as _;
+use std::time::Instant;
+
+pub struct Recorder<'a> {
+    prepared: &'a Prepared,
+    folder: Folder,
+    histories: Histories,
+    series: Series,
+    status: File,
+    status_lines: String,
+    ledger: Ledger,
+    contact: ContactRecord,
+    steps: usize,
+    iterations: usize,
+    started: Instant,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    Done,
+    NoConvergence,
+    Interrupted,
+}
+
+impl<'a> Recorder<'a> {
+    /// Opens the files and records the state at t = 0.
+    pub fn start(prepared: &'a Prepared, folder: Folder, state: &State) -> Result<Recorder<'a>> {
+        let path = folder.file("run.sta");
+        let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
+        let mut recorder = Recorder {
+            histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
+            series: Series::start(folder.path(), folder.name(), Grid::new(&prepared.model))?,
+            status,
+            status_lines: STATUS_HEADER.into(),
+            ledger: Ledger::start(&prepared.system, state),
+            contact: ContactRecord::default(),
+            steps: 0,
+            iterations: 0,
+            started: Instant::now(),
+            prepared,
+            folder,
+        };
+        recorder.histories.record(&prepared.system.unknowns, state);
+        recorder.write_frame(state)?;
+        Ok(recorder)
+    }
+
+    /// One whole step of the grid, given as the steps it was made of; returns the state at its end.
+    pub fn record(&mut self, number: usize, old: State, steps: Vec<Step>) -> Result<State> {
+        let system = &self.prepared.system;
+        self.contact.cut_steps += usize::from(steps.len() > 1);
+        let mut state = old;
+        for step in steps {
+            self.ledger = self.ledger.after(system, &state, &step.state);
+            let jumps = system.jumps(&step.state.q);
+            self.contact = self.contact.after(&system.interface, &state, &step.state, jumps);
+            self.iterations += step.iterations;
+            self.steps += 1;
+            self.write_status(number, &state, &step);
+            state = step.state;
+        }
+        self.histories.record(&system.unknowns, &state);
+        let time = &self.prepared.model.time;
+        if number.is_multiple_of(time.steps_per_frame) || number == time.steps {
+            self.write_frame(&state)?;
+        }
+        Ok(state)
+    }
+
+    fn write_frame(&mut self, state: &State) -> Result<()> {
+        self.flush()?;
+        self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state));
+        Ok(())
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        self.histories.flush()?;
+        let lines = std::mem::take(&mut self.status_lines);
+        let written = self.status.write_all(lines.as_bytes());
+        written.map_err(|e| file::not_written(&self.folder.file("run.sta"), &e))
+    }
+
+    fn write_status(&mut self, number: usize, old: &State, step: &Step) {
+        let (open, slipping) = open_and_slipping(&step.state);
+        let e = &self.ledger.now;
+        let left =
+            self.started.elapsed().as_secs_f64() / number as f64 * (self.prepared.model.time.steps - number) as f64;
+        let _ = writeln!(
+            self.status_lines,
+            "{number:7} {:12.5e} {:9.2e} {:4} {:9.2e} {open:5} {slipping:5} {:11.4e} {:11.4e} {:11.4e} {:11.4e} \
+             {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
+            step.state.time,
+            step.state.time - old.time,
+            step.iterations,
+            step.displacement_test,
+            e.work,
+            e.kinetic,
+            e.strain,
+            e.joint,
+            e.damping,
+            e.friction,
+            e.contact,
+            e.residual,
+        );
+    }
+
+    /// Closes the files and writes the summary, the last of all.
+    pub fn finish(mut self, ending: Ending, inputs: Inputs, title: &str, timing: Timing) -> Result<(Summary, Folder)> {
+        self.flush()?;
+        let steps_s = self.started.elapsed().as_secs_f64();
+        let written = self.series.finish()?;
+        let model = &self.prepared.model;
+        let summary = Summary {
+            status: match ending {
+                Ending::Done => "done",
+                Ending::NoConvergence => "no_convergence",
+                Ending::Interrupted => "interrupted",
+            },
+            title: title.into(),
+            inputs,
+            counts: Counts {
+                nodes: model.mesh.points.len(),
+                elements: model.faces().count(),
+                joints: model.joints.len(),
+                unknowns: self.prepared.system.unknowns.count,
+            },
+            frequencies_hz: self.prepared.frequencies(),
+            rayleigh: self.prepared.rayleigh,
+            steps: self.steps,
+            iterations: self.iterations,
+            frames: written.frames,
+            contact: self.contact,
+            probes: probe_places(self.prepared),
+            peaks: self.histories.peaks(),
+            energy: EnergyRecord::from(&self.ledger),
+            timing: Timing { steps_s, output_s: written.busy.as_secs_f64(), ..timing },
+            warnings: model.warnings.clone(),
+        };
+        Ok((summary, self.folder))
+    }
+}
+
+const STATUS_HEADER: &str = "#  step       t [s]    dt [s] iter  eq.(19)   open  slip   work [J/m]     kinetic      strain       \
+                             joint     damping    friction     contact    residual left [s]\n";
+
+fn probe_places(prepared: &Prepared) -> Vec<ProbePlace> {
+    let place = |p: &crate::model::resolve::NodeProbe| {
+        let [x, y] = prepared.model.mesh.points[p.node];
+        ProbePlace { name: p.name.clone(), node: p.node, x, y }
+    };
+    prepared.model.probes.iter().map(place).collect()
+}

@@ -1,0 +1,174 @@
+//! `coralpipe run`: from the case to the results folder.
+
+use super::mesh::{self, Meshed};
+use super::prepare::Prepared;
+use super::recorder::{Ending, Recorder};
+use super::screen::Screen;
+use crate::model::case::Case;
+use crate::model::resolve::Model;
+use crate::results::folder::Folder;
+use crate::results::summary::{Inputs, Timing};
+use crate::solve::contact::Unsettled;
+use crate::solve::march::{March, initial_state};
+use crate::solve::system::State;
+use crate::{Error, Result};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
+use std::time::Instant;
+
+/// What the command line asks for.
+#[derive(Debug, Clone)]
+pub struct Request {
+    pub case: PathBuf,
+    /// constants of the script
+    pub geo: BTreeMap<String, f64>,
+    /// PATH=VALUE changes of the case
+    pub sets: Vec<String>,
+    pub mesh: Option<PathBuf>,
+    pub out: Option<PathBuf>,
+    pub bonded: bool,
+    pub quiet: bool,
+}
+
+impl Request {
+    /// The results folder: `--out`, or `output/NAME` under the working folder.
+    pub fn folder(&self, case: &Case) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("output").join(case.name()))
+    }
+}
+
+/// Set by Ctrl-C: the run stops after the step it is at, with all files valid.
+pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// A case with its mesh and model: what `run`, `check` and `modes` start from.
+pub struct Loaded {
+    pub case: Case,
+    pub meshed: Meshed,
+    pub model: Model,
+}
+
+pub fn load(request: &Request) -> Result<Loaded> {
+    let case = Case::read(&request.case, &request.sets)?;
+    let meshed = mesh::obtain(&case, &request.geo, request.mesh.as_deref())?;
+    let mut model = Model::new(&case, &meshed.mesh, request.bonded)?;
+    model.warnings.extend(meshed.warnings.iter().cloned());
+    Ok(Loaded { case, meshed, model })
+}
+
+/// `coralpipe run`: solves the case and returns the table of what came out; the files are in the results folder.
+///
+/// Errors: bad input (nothing of an earlier run is touched), no convergence or an interrupt (all until then is on disk).
+pub fn command(request: &Request) -> Result<String> {
+    let started = Instant::now();
+    let screen = Screen::new(request.quiet);
+    let Loaded { case, meshed, model } = load(request)?;
+    screen.say(&meshed.told);
+    model.warnings.iter().for_each(|w| screen.warn(w));
+    let prepared = Prepared::new(model)?;
+    screen.say(&format!("{} unknowns, {} joints", prepared.system.unknowns.count, prepared.model.joints.len()));
+
+    let factoring = Instant::now();
+    let (state, mut march) = ready_to_march(&prepared)?;
+    let timing = Timing {
+        mesh_s: meshed.took.as_secs_f64(),
+        setup_s: prepared.setup.as_secs_f64(),
+        factor_s: (prepared.factor + factoring.elapsed()).as_secs_f64(),
+        ..Timing::default()
+    };
+    let inputs = inputs(&case, &meshed.path, request.bonded)?;
+    let mut recorder = Recorder::start(&prepared, Folder::prepare(&request.folder(&case), &case.name())?, &state)?;
+    let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
+    let (mut summary, folder) = recorder.finish(ending, inputs, &case.title, timing)?;
+    summary.timing.total_s = started.elapsed().as_secs_f64();
+    folder.write_summary(&summary.to_json())?;
+    match error {
+        Some(error) => Err(with_what_is_left(error, &folder)),
+        None => {
+            folder.remove_previous()?;
+            Ok(summary.table() + &format!("results in {}\n", folder.path().display()))
+        }
+    }
+}
+
+fn ready_to_march(prepared: &Prepared) -> Result<(State, March<'_>)> {
+    let Prepared { model, system, symbolic, .. } = prepared;
+    let start = initial_state(system, symbolic, model.start);
+    let march = March::new(system, symbolic, model.newmark, model.time.step, model.newton);
+    let not_definite = |e| prepared.not_definite(e);
+    Ok((start.map_err(not_definite)?, march.map_err(not_definite)?))
+}
+
+fn march_to_end(
+    prepared: &Prepared,
+    march: &mut March,
+    recorder: &mut Recorder,
+    start: State,
+    screen: &Screen,
+) -> Result<(Ending, Option<Error>)> {
+    let time = prepared.model.time;
+    let progress = screen.progress(time.steps);
+    let mut state = start;
+    for number in 1..=time.steps {
+        if INTERRUPTED.load(Relaxed) {
+            let sentence = format!("interrupted at t = {} s, after step {} of {}", state.time, number - 1, time.steps);
+            return Ok((Ending::Interrupted, Some(Error::Interrupted(sentence))));
+        }
+        state = match march.advance(&state) {
+            Ok(steps) => recorder.record(number, state, steps)?,
+            Err(unsettled) => {
+                let sentence = unsettled_joints(prepared, &unsettled, state.time, number);
+                return Ok((Ending::NoConvergence, Some(Error::NoConvergence(sentence))));
+            }
+        };
+        progress.step(number);
+    }
+    Ok((Ending::Done, None))
+}
+
+/// Names the joints that keep changing their status.
+fn unsettled_joints(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: usize) -> String {
+    let model = &prepared.model;
+    let place = |&i: &usize| {
+        let point = &prepared.system.interface.points[i];
+        let [x, y] = point.at;
+        format!("{} at ({x:.4}, {y:.4}) m", model.seams[model.joints[point.joint].seam].curve)
+    };
+    let places: Vec<String> = unsettled.points.iter().take(6).map(place).collect();
+    let more = unsettled.points.len().saturating_sub(places.len());
+    let and_more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!(
+        "no convergence in step {number} after t = {time} s, even with the time step cut by 32: joint points keep changing \
+         between open, sticking and slipping: {}{and_more}; try a smaller time.step, a larger interface thickness, or damping",
+        places.join(", ")
+    )
+}
+
+fn with_what_is_left(error: Error, folder: &Folder) -> Error {
+    let path = folder.path().display();
+    let kept = match folder.has_previous() {
+        true => format!("; the results of the run before are in {path}/previous"),
+        false => String::new(),
+    };
+    let whole = |sentence: String| format!("{sentence}; what was computed until then is in {path}{kept}");
+    match error {
+        Error::NoConvergence(s) => Error::NoConvergence(whole(s)),
+        Error::Interrupted(s) => Error::Interrupted(whole(s)),
+        input => input,
+    }
+}
+
+fn inputs(case: &Case, mesh: &Path, bonded: bool) -> Result<Inputs> {
+    let content = std::fs::read(mesh).map_err(|e| Error::input(format!("{}: {e}", mesh.display())))?;
+    let hash = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
+    Ok(Inputs {
+        case: case.path().display().to_string(),
+        case_sha256: hash(case.json().to_string().as_bytes()),
+        mesh: mesh.display().to_string(),
+        mesh_sha256: hash(&content),
+        bonded,
+        coralpipe: env!("CARGO_PKG_VERSION"),
+    })
+}

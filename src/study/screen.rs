@@ -1,0 +1,62 @@
+//! What a run tells on stderr: sentences, warnings, and a progress bar on a terminal or plain lines in a log.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+
+pub struct Screen {
+    quiet: bool,
+}
+
+pub enum Progress {
+    Quiet,
+    Bar(ProgressBar),
+    /// a line each tenth
+    Lines {
+        steps: usize,
+    },
+}
+
+impl Screen {
+    pub fn new(quiet: bool) -> Screen {
+        Screen { quiet }
+    }
+
+    pub fn say(&self, sentence: &str) {
+        if !self.quiet {
+            eprintln!("{sentence}");
+        }
+    }
+
+    /// Warnings are told even to those who want quiet.
+    pub fn warn(&self, sentence: &str) {
+        eprintln!("warning: {sentence}");
+    }
+
+    pub fn progress(&self, steps: usize) -> Progress {
+        match (self.quiet, std::io::stderr().is_terminal()) {
+            (true, _) => Progress::Quiet,
+            (false, false) => Progress::Lines { steps },
+            (false, true) => {
+                let style = ProgressStyle::with_template("{bar:40} step {pos}/{len}, {eta} left");
+                let bar = ProgressBar::new(steps as u64);
+                Progress::Bar(style.map_or_else(|_| bar.clone(), |s| bar.clone().with_style(s)))
+            }
+        }
+    }
+}
+
+impl Progress {
+    /// The step of this number is done.
+    pub fn step(&self, number: usize) {
+        match self {
+            Progress::Quiet => {}
+            Progress::Bar(bar) => bar.set_position(number as u64),
+            Progress::Lines { steps } => {
+                let tenth = |n: usize| 10 * n / steps;
+                if tenth(number) > tenth(number - 1) {
+                    eprintln!("step {number} of {steps}");
+                }
+            }
+        }
+    }
+}
