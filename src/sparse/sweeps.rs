@@ -10,7 +10,7 @@ use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use super::Factor;
 
 /// Supernodes: neighbouring columns of L that have the same rows below their triangle.
-pub struct Panels {
+pub(super) struct Panels {
     /// First column of each supernode, and the number of unknowns at the end.
     columns: Vec<usize>,
     /// Where the rows of each supernode begin and end in `rows`.
@@ -31,7 +31,12 @@ impl Panels {
             rows.extend_from_slice(supernodes.supernode(s).pattern());
             start.push(rows.len());
         }
-        Panels { columns, start, rows, dense: supernodes.col_ptr_for_val().to_vec() }
+        Panels {
+            columns,
+            start,
+            rows,
+            dense: supernodes.col_ptr_for_val().to_vec(),
+        }
     }
 
     pub fn unknowns(&self) -> usize {
@@ -57,6 +62,7 @@ impl Panels {
         &values[self.dense[s]..self.dense[s + 1]]
     }
 
+    /// L out of faer's values, as the forward sweep reads it.
     pub fn pack_forward(&self, values: &[f64]) -> Vec<f64> {
         let mut packed = Vec::with_capacity(self.entries());
         for s in 0..self.count() {
@@ -66,6 +72,7 @@ impl Panels {
         packed
     }
 
+    /// L out of faer's values, as the backward sweep reads it.
     pub fn pack_backward(&self, values: &[f64]) -> Vec<f64> {
         let mut packed = Vec::with_capacity(self.entries());
         for s in (0..self.count()).rev() {
@@ -76,7 +83,9 @@ impl Panels {
     }
 
     fn entries(&self) -> usize {
-        (0..self.count()).map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2).sum()
+        (0..self.count())
+            .map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2)
+            .sum()
     }
 
     /// Visits the entries (row, column) of supernode `s` in the order of the forward copy, counted inside it.
@@ -96,21 +105,26 @@ impl Panels {
         let (width, height) = (self.width(s), self.rows(s).len());
         for (first, size) in blocks(0, width).rev() {
             (first + size..height).for_each(|i| (first..first + size).for_each(|j| visit(i, j)));
-            (first..first + size).rev().for_each(|j| (j..first + size).for_each(|i| visit(i, j)));
+            (first..first + size)
+                .rev()
+                .for_each(|j| (j..first + size).for_each(|i| visit(i, j)));
         }
     }
 }
 
+/// An entry of L as it is packed.
 fn stored(l: f64, diagonal: bool) -> f64 {
     if diagonal { 1.0 / l } else { l }
 }
 
-/// Rows or columns that are summed at once: two registers of four numbers.
+/// Rows or columns that are summed at once: enough sums that none waits for its last addition.
 const BLOCK: usize = 8;
 
 /// Cuts `from..to` into blocks (first, size): as many of `BLOCK` as fit, then the rest.
 fn blocks(from: usize, to: usize) -> impl DoubleEndedIterator<Item = (usize, usize)> {
-    (from..to).step_by(BLOCK).map(move |first| (first, BLOCK.min(to - first)))
+    (from..to)
+        .step_by(BLOCK)
+        .map(move |first| (first, BLOCK.min(to - first)))
 }
 
 /// Calls a function of the block size that is known when compiling.
@@ -143,7 +157,10 @@ impl Factor {
                 of_size!(size, solve_rows(&mut l, &mut x[rows[0]..], first));
             }
             for (first, size) in blocks(width, rows.len()) {
-                of_size!(size, subtract_rows(&mut l, x, &rows[..width], &rows[first..]));
+                of_size!(
+                    size,
+                    subtract_rows(&mut l, x, &rows[..width], &rows[first..])
+                );
             }
         }
     }
