@@ -4,6 +4,7 @@ pub mod case;
 pub mod mesh;
 pub mod msh;
 mod plane;
+pub mod quality;
 pub mod resolve;
 pub mod split;
 pub mod units;

@@ -2,6 +2,7 @@
 
 use super::case::{self, Case, Damping, Integration, Mass, Newmark, Newton, Probe, Start};
 use super::mesh::{Group, Mesh};
+use super::quality;
 use super::split::{self, Joint, Pair, Seam};
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
@@ -91,6 +92,7 @@ impl Model {
         let mut warnings = Vec::new();
         let (materials, material_of) = materials(case, mesh, &mut warnings)?;
         let seams = if bonded { vec![] } else { seams(case, mesh, &mut warnings) };
+        quality::refuse_folded(mesh)?;
         let opened = split::open(mesh, &seams)?;
         let mesh = opened.mesh;
         let laws = opened

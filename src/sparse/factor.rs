@@ -27,11 +27,7 @@ pub struct NotPositiveDefinite {
 
 impl fmt::Display for NotPositiveDefinite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the matrix is not positive definite: the pivot of unknown {} is not positive",
-            self.unknown
-        )
+        write!(f, "the matrix is not positive definite: the pivot of unknown {} is not positive", self.unknown)
     }
 }
 
@@ -70,10 +66,7 @@ impl Symbolic {
     /// # Panics
     /// If `pattern` is not square CSR.
     pub fn new(pattern: &CsMat<f64>) -> Self {
-        assert!(
-            pattern.is_csr() && pattern.rows() == pattern.cols(),
-            "a symmetric matrix is square CSR"
-        );
+        assert!(pattern.is_csr() && pattern.rows() == pattern.cols(), "a symmetric matrix is square CSR");
         let n = pattern.rows();
         let start = pattern.proper_indptr().into_owned();
         let columns = pattern.indices().to_vec();
@@ -83,12 +76,7 @@ impl Symbolic {
             .or(supernodal::factorize_supernodal_symbolic_cholesky_scratch::<usize>(n));
         let mut memory = MemBuffer::new(scratch);
         let (mut tree, mut counts) = (vec![0; n], vec![0; n]);
-        let tree = simplicial::prefactorize_symbolic_cholesky(
-            &mut tree,
-            &mut counts,
-            a,
-            MemStack::new(&mut memory),
-        );
+        let tree = simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, a, MemStack::new(&mut memory));
         let supernodes = supernodal::factorize_supernodal_symbolic_cholesky(
             a,
             tree,
@@ -98,12 +86,7 @@ impl Symbolic {
         )
         .expect("it fails only where memory ends, as any Vec here would");
         let panels = Arc::new(Panels::new(&supernodes));
-        Symbolic {
-            start,
-            columns,
-            supernodes,
-            panels,
-        }
+        Symbolic { start, columns, supernodes, panels }
     }
 
     /// A = L L^T.
@@ -129,11 +112,9 @@ impl Symbolic {
             MemStack::new(&mut MemBuffer::new(scratch)),
             Default::default(),
         )
-        .map_err(
-            |faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
-                NotPositiveDefinite { unknown: index }
-            },
-        )?;
+        .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
+            NotPositiveDefinite { unknown: index }
+        })?;
         Ok(Factor {
             panels: self.panels.clone(),
             forward: self.panels.pack_forward(&values),
@@ -165,11 +146,9 @@ impl Symbolic {
             MemStack::new(&mut MemBuffer::new(scratch)),
             Default::default(),
         )
-        .map_err(
-            |faer::linalg::cholesky::ldlt::factor::LdltError::ZeroPivot { index }| {
-                UnreliablePivot { unknown: index }
-            },
-        )?;
+        .map_err(|faer::linalg::cholesky::ldlt::factor::LdltError::ZeroPivot { index }| UnreliablePivot {
+            unknown: index,
+        })?;
         self.reliable_signs(&values, a)
     }
 
@@ -180,10 +159,7 @@ impl Symbolic {
             "the pattern of the matrix is not the analysed one"
         );
         let n = self.start.len() - 1;
-        SparseColMatRef::new(
-            SymbolicSparseColMatRef::new_checked(n, n, &self.start, None, &self.columns),
-            a.data(),
-        )
+        SparseColMatRef::new(SymbolicSparseColMatRef::new_checked(n, n, &self.start, None, &self.columns), a.data())
     }
 
     /// Counts negative pivots in the values of L D L^T (L has a unit diagonal, D stands in its place), if they can be
@@ -203,10 +179,7 @@ impl Symbolic {
             }
         }
         for (unknown, row) in a.outer_iterator().enumerate() {
-            let scale = row
-                .data()
-                .iter()
-                .fold(0.0, |largest: f64, aij| largest.max(aij.abs()));
+            let scale = row.data().iter().fold(0.0, |largest: f64, aij| largest.max(aij.abs()));
             let sound = growth[unknown] <= MAX_GROWTH * scale; // false for NaN
             if !sound {
                 return Err(UnreliablePivot { unknown });
@@ -240,10 +213,7 @@ impl Factor {
     /// # Panics
     /// If there are fewer than `m` unknowns.
     pub fn trailing(&self, m: usize) -> Mat<f64> {
-        let first = self
-            .len()
-            .checked_sub(m)
-            .expect("no more trailing unknowns than unknowns");
+        let first = self.len().checked_sub(m).expect("no more trailing unknowns than unknowns");
         let mut block = Mat::zeros(m, m);
         let mut values = self.backward.iter();
         for s in (0..self.panels.count()).rev() {
@@ -254,8 +224,7 @@ impl Factor {
             self.panels.each_backward(s, |i, j| {
                 let value = *values.next().expect("the packing visits the same entries");
                 if rows[j] >= first {
-                    block[(rows[i] - first, rows[j] - first)] =
-                        if i == j { 1.0 / value } else { value };
+                    block[(rows[i] - first, rows[j] - first)] = if i == j { 1.0 / value } else { value };
                 }
             });
         }
@@ -282,21 +251,13 @@ mod tests {
     fn shifted(a: &CsMat<f64>, sigma: f64) -> CsMat<f64> {
         let diagonal: Vec<bool> = a.iter().map(|(_, (i, j))| i == j).collect();
         let mut b = a.clone();
-        b.data_mut()
-            .iter_mut()
-            .zip(diagonal)
-            .filter(|(_, d)| *d)
-            .for_each(|(b, _)| *b -= sigma);
+        b.data_mut().iter_mut().zip(diagonal).filter(|(_, d)| *d).for_each(|(b, _)| *b -= sigma);
         b
     }
 
     #[test]
     fn l_times_its_transpose_is_the_matrix() {
-        for a in [
-            grid_matrix(1, 1, &[]),
-            grid_matrix(7, 5, &[8, 9, 10]),
-            grid_matrix(15, 12, &[]),
-        ] {
+        for a in [grid_matrix(1, 1, &[]), grid_matrix(7, 5, &[8, 9, 10]), grid_matrix(15, 12, &[])] {
             let l = as_nalgebra(&factor(&a).trailing(a.rows()));
             // Entries are about 10; round-off of sums of some hundred products.
             assert!((&l * l.transpose() - dense(&a)).amax() < 1e-12);
@@ -315,17 +276,10 @@ mod tests {
             let i = n - m;
             let a_cc = full.view((i, i), (m, m)).into_owned();
             let a_ci = full.view((i, 0), (m, i));
-            let a_ii = full
-                .view((0, 0), (i, i))
-                .into_owned()
-                .cholesky()
-                .expect("positive definite");
+            let a_ii = full.view((0, 0), (i, i)).into_owned().cholesky().expect("positive definite");
             let schur = a_cc - a_ci * a_ii.solve(&a_ci.transpose());
             let l = as_nalgebra(&factor.trailing(m));
-            assert!(
-                (&l * l.transpose() - schur).abs().sum() <= 1e-12 * (m * m) as f64,
-                "last {m} unknowns"
-            );
+            assert!((&l * l.transpose() - schur).abs().sum() <= 1e-12 * (m * m) as f64, "last {m} unknowns");
         }
     }
 
@@ -342,10 +296,7 @@ mod tests {
         factor.forward(&mut y);
         let interior = y.len() - m;
         let y_c = nalgebra::DVector::from_column_slice(&y[interior..]);
-        let u_c = (&l * l.transpose())
-            .lu()
-            .solve(&(&l * y_c))
-            .expect("regular");
+        let u_c = (&l * l.transpose()).lu().solve(&(&l * y_c)).expect("regular");
         y[interior..].copy_from_slice((l.transpose() * u_c).as_slice());
         factor.backward(&mut y);
         assert!(distance(&y, &full) < 1e-13);
@@ -375,12 +326,8 @@ mod tests {
         for unknown in [0, 1, 37, 100, a.rows() - 1] {
             for pivot in [-1.0, f64::NAN] {
                 let mut bad = a.clone();
-                *bad.get_mut(unknown, unknown)
-                    .expect("the diagonal is stored") = pivot;
-                assert_eq!(
-                    symbolic.factor(&bad).err(),
-                    Some(NotPositiveDefinite { unknown })
-                );
+                *bad.get_mut(unknown, unknown).expect("the diagonal is stored") = pivot;
+                assert_eq!(symbolic.factor(&bad).err(), Some(NotPositiveDefinite { unknown }));
             }
         }
     }

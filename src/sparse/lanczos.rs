@@ -36,12 +36,7 @@ const RESTARTS: usize = 20;
 ///
 /// # Panics
 /// If `m` and `factor` differ in size.
-pub fn smallest_modes(
-    factor: &Factor,
-    shift: f64,
-    m: &CsMat<f64>,
-    count: usize,
-) -> Result<Vec<Mode>> {
+pub fn smallest_modes(factor: &Factor, shift: f64, m: &CsMat<f64>, count: usize) -> Result<Vec<Mode>> {
     assert_eq!(factor.len(), m.rows(), "unknowns of the factor and of M");
     let pencil = Pencil { factor, shift, m };
     let count = count.min(m.rows());
@@ -101,22 +96,12 @@ impl Pencil<'_> {
         for _ in 0..RESTARTS {
             let space = self.krylov(known, start, wanted)?;
             if space.settled > 0 {
-                return space
-                    .ritz
-                    .into_iter()
-                    .take(space.settled)
-                    .map(|pair| self.mode(pair))
-                    .collect();
+                return space.ritz.into_iter().take(space.settled).map(|pair| self.mode(pair)).collect();
             }
             start = vec![0.0; self.m.rows()];
-            space
-                .ritz
-                .iter()
-                .for_each(|(_, shape)| add(&mut start, 1.0, shape));
+            space.ritz.iter().for_each(|(_, shape)| add(&mut start, 1.0, shape));
         }
-        Err(no_convergence(
-            "after all restarts, the residual is still too large",
-        ))
+        Err(no_convergence("after all restarts, the residual is still too large"))
     }
 
     /// Spans the Krylov space of `start` in the complement of `known` until its `wanted` first pairs have converged,
@@ -129,9 +114,7 @@ impl Pencil<'_> {
         let (mut basis, mut diagonal, mut below) = (Vec::new(), Vec::new(), Vec::new());
         loop {
             if !(beta > 0.0 && beta.is_finite()) {
-                return Err(no_convergence(
-                    "a vector has no length in the inner product of M",
-                ));
+                return Err(no_convergence("a vector has no length in the inner product of M"));
             }
             start.iter_mut().for_each(|x| *x /= beta);
             basis.push(start);
@@ -145,25 +128,11 @@ impl Pencil<'_> {
             let invariant = length == dimension || beta <= ROUND_OFF * diagonal[0].abs();
             if invariant || length == longest || length % 5 == 0 {
                 let pairs = tridiagonal_pairs(&diagonal, &below)?;
-                let converged = pairs
-                    .iter()
-                    .take(wanted)
-                    .take_while(|pair| self.has_converged(pair))
-                    .count();
-                let settled = if invariant {
-                    converged.max(1)
-                } else {
-                    converged
-                };
+                let converged = pairs.iter().take(wanted).take_while(|pair| self.has_converged(pair)).count();
+                let settled = if invariant { converged.max(1) } else { converged };
                 if invariant || length == longest || converged == wanted {
-                    let ritz = pairs
-                        .iter()
-                        .take(wanted)
-                        .map(|pair| (pair.theta, combine(&basis, &pair.vector)));
-                    return Ok(Krylov {
-                        settled,
-                        ritz: ritz.collect(),
-                    });
+                    let ritz = pairs.iter().take(wanted).map(|pair| (pair.theta, combine(&basis, &pair.vector)));
+                    return Ok(Krylov { settled, ritz: ritz.collect() });
                 }
             }
         }
@@ -196,14 +165,9 @@ impl Pencil<'_> {
         add(&mut residual, -theta, &shape);
         let sound = self.norm(&residual) <= SANITY * theta; // false for NaN
         if !sound {
-            return Err(no_convergence(
-                "the residual of a computed mode is not small",
-            ));
+            return Err(no_convergence("the residual of a computed mode is not small"));
         }
-        Ok(Mode {
-            lambda: self.lambda(theta),
-            shape,
-        })
+        Ok(Mode { lambda: self.lambda(theta), shape })
     }
 }
 
@@ -230,17 +194,11 @@ fn tridiagonal_pairs(diagonal: &[f64], below: &[f64]) -> Result<Vec<Pair>> {
         1 => below[i.min(j)],
         _ => 0.0,
     });
-    let eigen = t
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|_| no_convergence("a small matrix has no eigenvalues"))?;
+    let eigen = t.self_adjoint_eigen(Side::Lower).map_err(|_| no_convergence("a small matrix has no eigenvalues"))?;
     let pair = |k: usize| {
         let vector: Vec<f64> = eigen.U().col(k).iter().copied().collect();
         let residual = below[n - 1] * vector[n - 1].abs();
-        Pair {
-            theta: eigen.S()[k],
-            vector,
-            residual,
-        }
+        Pair { theta: eigen.S()[k], vector, residual }
     };
     Ok((0..n).rev().map(pair).collect())
 }
@@ -267,17 +225,12 @@ pub(super) fn pseudo_random(n: usize, seed: usize) -> Vec<f64> {
 /// Sign of the largest component; of several that are equal to round-off, of the first.
 fn sign_of_largest(x: &[f64]) -> f64 {
     let largest = x.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
-    x.iter()
-        .find(|x| x.abs() >= (1.0 - 1e-6) * largest)
-        .map_or(1.0, |x| x.signum())
+    x.iter().find(|x| x.abs() >= (1.0 - 1e-6) * largest).map_or(1.0, |x| x.signum())
 }
 
 fn combine(basis: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {
     let mut sum = vec![0.0; basis[0].len()];
-    basis
-        .iter()
-        .zip(weights)
-        .for_each(|(q, &weight)| add(&mut sum, weight, q));
+    basis.iter().zip(weights).for_each(|(q, &weight)| add(&mut sum, weight, q));
     sum
 }
 
@@ -306,11 +259,7 @@ mod tests {
         let row_of: Vec<usize> = k.iter().map(|(_, (i, _))| i).collect();
         let column_of = k.indices();
         for (e, value) in m.data_mut().iter_mut().enumerate() {
-            *value = if row_of[e] == column_of[e] {
-                1.0 + 0.5 * random[row_of[e]]
-            } else {
-                0.0
-            };
+            *value = if row_of[e] == column_of[e] { 1.0 + 0.5 * random[row_of[e]] } else { 0.0 };
         }
         m
     }
@@ -319,12 +268,8 @@ mod tests {
     fn dense_lambdas(k: &CsMat<f64>, m: &CsMat<f64>) -> Vec<f64> {
         let l = Cholesky::new(dense(m)).expect("M is positive definite").l();
         let inverse: DMatrix<f64> = l.try_inverse().expect("M is positive definite");
-        let mut lambdas: Vec<f64> = (&inverse * dense(k) * inverse.transpose())
-            .symmetric_eigen()
-            .eigenvalues
-            .iter()
-            .copied()
-            .collect();
+        let mut lambdas: Vec<f64> =
+            (&inverse * dense(k) * inverse.transpose()).symmetric_eigen().eigenvalues.iter().copied().collect();
         lambdas.sort_by(f64::total_cmp);
         lambdas
     }
@@ -343,47 +288,29 @@ mod tests {
     /// Compares the `count` lowest modes with `lambdas`, and checks phi^T M phi = 1 and the residual of each.
     fn check(k: &CsMat<f64>, m: &CsMat<f64>, shift: f64, count: usize, lambdas: &[f64]) {
         let mut shifted = k.clone();
-        shifted
-            .data_mut()
-            .iter_mut()
-            .zip(m.data())
-            .for_each(|(k, m)| *k += shift * m);
-        let factor = Symbolic::new(k)
-            .factor(&shifted)
-            .expect("positive definite");
+        shifted.data_mut().iter_mut().zip(m.data()).for_each(|(k, m)| *k += shift * m);
+        let factor = Symbolic::new(k).factor(&shifted).expect("positive definite");
         let modes = smallest_modes(&factor, shift, m, count).expect("converges");
         assert_eq!(modes.len(), count.min(k.rows()));
         let mut product = vec![0.0; k.rows()];
         for (i, (mode, &lambda)) in modes.iter().zip(lambdas).enumerate() {
             // The promised 1e-10, and the round-off of the dense eigenvalues.
             let error = (mode.lambda - lambda).abs();
-            assert!(
-                error < 2e-10 * lambda.abs().max(FLOOR * shift),
-                "lambda {i}: {} for {lambda}",
-                mode.lambda
-            );
+            assert!(error < 2e-10 * lambda.abs().max(FLOOR * shift), "lambda {i}: {} for {lambda}", mode.lambda);
             for (j, other) in modes.iter().enumerate() {
                 multiply(m, &other.shape, &mut product);
                 let phi_m_phi = dot(&mode.shape, &product);
                 let exact = if i == j { 1.0 } else { 0.0 };
                 // Vectors of near eigenvalues 1e-6 apart are known to 1e-10 / 1e-6.
-                assert!(
-                    (phi_m_phi - exact).abs() < 1e-4,
-                    "phi_{i}^T M phi_{j} = {phi_m_phi}"
-                );
+                assert!((phi_m_phi - exact).abs() < 1e-4, "phi_{i}^T M phi_{j} = {phi_m_phi}");
             }
             multiply(m, &mode.shape, &mut product);
-            product
-                .iter_mut()
-                .for_each(|x| *x *= -(mode.lambda + shift));
+            product.iter_mut().for_each(|x| *x *= -(mode.lambda + shift));
             let mut k_phi = vec![0.0; k.rows()];
             multiply(&shifted, &mode.shape, &mut k_phi);
             add(&mut product, 1.0, &k_phi);
             // K is 1e3 times lambda at most here, M about 1.
-            assert!(
-                dot(&product, &product).sqrt() < 1e-6,
-                "K phi - lambda M phi of mode {i}"
-            );
+            assert!(dot(&product, &product).sqrt() < 1e-6, "K phi - lambda M phi of mode {i}");
         }
     }
 
@@ -420,10 +347,7 @@ mod tests {
     fn an_eigenvalue_of_any_multiplicity_is_found_as_often() {
         let lambdas = [1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 3.0];
         let mut k = TriMat::new((7, 7));
-        lambdas
-            .iter()
-            .enumerate()
-            .for_each(|(i, &lambda)| k.add_triplet(i, i, lambda));
+        lambdas.iter().enumerate().for_each(|(i, &lambda)| k.add_triplet(i, i, lambda));
         let k: CsMat<f64> = k.to_csr();
         let mut m = k.clone();
         m.data_mut().fill(1.0);
@@ -436,27 +360,15 @@ mod tests {
         let n = 60;
         let mut k = TriMat::new((n, n));
         for i in 0..n - 1 {
-            for (a, b, value) in [
-                (i, i, 1.0),
-                (i + 1, i + 1, 1.0),
-                (i, i + 1, -1.0),
-                (i + 1, i, -1.0),
-            ] {
+            for (a, b, value) in [(i, i, 1.0), (i + 1, i + 1, 1.0), (i, i + 1, -1.0), (i + 1, i, -1.0)] {
                 k.add_triplet(a, b, value);
             }
         }
         let k: CsMat<f64> = k.to_csr();
         let mut m = k.clone();
-        m.data_mut()
-            .iter_mut()
-            .for_each(|value| *value = if *value > 0.0 { 1.0 } else { 0.0 });
-        let lambdas: Vec<f64> = (0..n)
-            .map(|j| {
-                4.0 * (std::f64::consts::PI * j as f64 / (2 * n) as f64)
-                    .sin()
-                    .powi(2)
-            })
-            .collect();
+        m.data_mut().iter_mut().for_each(|value| *value = if *value > 0.0 { 1.0 } else { 0.0 });
+        let lambdas: Vec<f64> =
+            (0..n).map(|j| 4.0 * (std::f64::consts::PI * j as f64 / (2 * n) as f64).sin().powi(2)).collect();
         check(&k, &m, 0.01, 5, &lambdas);
     }
 
@@ -466,9 +378,6 @@ mod tests {
         let factor = Symbolic::new(&k).factor(&k).expect("positive definite");
         let mut m = lumped_mass(&k);
         m.data_mut().iter_mut().for_each(|value| *value *= f64::NAN);
-        assert!(matches!(
-            smallest_modes(&factor, 0.0, &m, 2),
-            Err(Error::NoConvergence(_))
-        ));
+        assert!(matches!(smallest_modes(&factor, 0.0, &m, 2), Err(Error::NoConvergence(_))));
     }
 }

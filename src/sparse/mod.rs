@@ -18,11 +18,7 @@ use sprs::CsMat;
 /// # Panics
 /// If the lengths of `x` and `y` are not the columns and rows of `a`.
 pub fn multiply(a: &CsMat<f64>, x: &[f64], y: &mut [f64]) {
-    assert_eq!(
-        (a.rows(), a.cols()),
-        (y.len(), x.len()),
-        "A x = y: sizes of A and of (y, x)"
-    );
+    assert_eq!((a.rows(), a.cols()), (y.len(), x.len()), "A x = y: sizes of A and of (y, x)");
     for (row, yi) in a.outer_iterator().zip(y) {
         *yi = row.iter().map(|(j, aij)| aij * x[j]).sum();
     }

@@ -2,10 +2,7 @@
 
 use std::sync::Mutex;
 
-use metis_sys::{
-    METIS_NodeND, METIS_SetDefaultOptions, idx_t, moptions_et_METIS_OPTION_SEED,
-    rstatus_et_METIS_OK,
-};
+use metis_sys::{METIS_NodeND, METIS_SetDefaultOptions, idx_t, moptions_et_METIS_OPTION_SEED, rstatus_et_METIS_OK};
 
 use crate::{Error, Result};
 
@@ -22,10 +19,7 @@ impl Graph {
     ///
     /// # Panics
     /// If a clique names a vertex that is not in `0..vertices`.
-    pub fn from_cliques<'a>(
-        vertices: usize,
-        cliques: impl Iterator<Item = &'a [usize]> + Clone,
-    ) -> Self {
+    pub fn from_cliques<'a>(vertices: usize, cliques: impl Iterator<Item = &'a [usize]> + Clone) -> Self {
         let mut first = vec![0; vertices + 1];
         cliques.clone().flatten().for_each(|&v| first[v + 1] += 1);
         (0..vertices).for_each(|v| first[v + 1] += first[v]);
@@ -74,12 +68,7 @@ impl Graph {
         let mut start = vec![0];
         let mut neighbours = Vec::new();
         for &v in kept {
-            neighbours.extend(
-                self.neighbours_of(v)
-                    .iter()
-                    .map(|&w| new[w])
-                    .filter(|&w| w != usize::MAX),
-            );
+            neighbours.extend(self.neighbours_of(v).iter().map(|&w| new[w]).filter(|&w| w != usize::MAX));
             start.push(neighbours.len());
         }
         Graph { start, neighbours }
@@ -104,11 +93,7 @@ pub fn elimination_order(graph: &Graph, last: &[usize]) -> Result<Vec<usize>> {
     let inner = graph.subgraph(&interior);
     let dissected = nested_dissection(&inner)?;
     let postorder = postorder(&elimination_tree(&inner, &dissected));
-    Ok(postorder
-        .iter()
-        .map(|&i| interior[dissected[i]])
-        .chain(last.iter().copied())
-        .collect())
+    Ok(postorder.iter().map(|&i| interior[dissected[i]]).chain(last.iter().copied()).collect())
 }
 
 /// `order[new] = old` by METIS on the vertices that have neighbours; those that have none come first.
@@ -116,11 +101,7 @@ fn nested_dissection(graph: &Graph) -> Result<Vec<usize>> {
     let (coupled, mut order): (Vec<usize>, Vec<usize>) =
         (0..graph.len()).partition(|&v| !graph.neighbours_of(v).is_empty());
     if !coupled.is_empty() {
-        order.extend(
-            metis_order(&graph.subgraph(&coupled))?
-                .into_iter()
-                .map(|i| coupled[i]),
-        );
+        order.extend(metis_order(&graph.subgraph(&coupled))?.into_iter().map(|i| coupled[i]));
     }
     Ok(order)
 }
@@ -138,11 +119,7 @@ fn metis_order(graph: &Graph) -> Result<Vec<usize>> {
             idx_t::MAX
         ))
     };
-    let narrow = |list: &[usize]| {
-        list.iter()
-            .map(|&i| idx_t::try_from(i))
-            .collect::<std::result::Result<Vec<_>, _>>()
-    };
+    let narrow = |list: &[usize]| list.iter().map(|&i| idx_t::try_from(i)).collect::<std::result::Result<Vec<_>, _>>();
     let mut start = narrow(&graph.start).map_err(too_large)?;
     let mut neighbours = narrow(&graph.neighbours).map_err(too_large)?;
     let mut vertices = idx_t::try_from(graph.len()).map_err(too_large)?;
@@ -150,9 +127,7 @@ fn metis_order(graph: &Graph) -> Result<Vec<usize>> {
     let mut new_of = vec![0; graph.len()];
     let mut options = [0; metis_sys::METIS_NOPTIONS as usize];
 
-    let guard = ONE_AT_A_TIME
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    let guard = ONE_AT_A_TIME.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     // SAFETY: `options` has METIS_NOPTIONS entries; `start` has vertices + 1 of them, is ascending and ends at the
     // length of `neighbours`, whose entries are below `vertices`; both results have `vertices` entries. METIS keeps
     // no pointer.
@@ -185,10 +160,7 @@ const NONE: usize = usize::MAX;
 /// Liu (1986), with path compression.
 fn elimination_tree(graph: &Graph, order: &[usize]) -> Vec<usize> {
     let mut new_of = vec![0; order.len()];
-    order
-        .iter()
-        .enumerate()
-        .for_each(|(new, &old)| new_of[old] = new);
+    order.iter().enumerate().for_each(|(new, &old)| new_of[old] = new);
     let mut parent = vec![NONE; order.len()];
     let mut ancestor = vec![NONE; order.len()];
     for (j, &old) in order.iter().enumerate() {
@@ -252,21 +224,13 @@ mod tests {
     fn fill(graph: &Graph, order: &[usize]) -> usize {
         let parent = elimination_tree(graph, order);
         let mut new_of = vec![0; order.len()];
-        order
-            .iter()
-            .enumerate()
-            .for_each(|(new, &old)| new_of[old] = new);
+        order.iter().enumerate().for_each(|(new, &old)| new_of[old] = new);
         let mut rows = vec![std::collections::BTreeSet::new(); order.len()];
         for j in 0..order.len() {
-            let own = graph
-                .neighbours_of(order[j])
-                .iter()
-                .map(|&w| new_of[w])
-                .filter(|&i| i > j);
+            let own = graph.neighbours_of(order[j]).iter().map(|&w| new_of[w]).filter(|&i| i > j);
             rows[j].extend(own);
             if parent[j] != NONE {
-                let above: Vec<usize> =
-                    rows[j].iter().copied().filter(|&i| i > parent[j]).collect();
+                let above: Vec<usize> = rows[j].iter().copied().filter(|&i| i > parent[j]).collect();
                 rows[parent[j]].extend(above);
             }
         }
@@ -283,9 +247,7 @@ mod tests {
     #[test]
     fn order_is_a_permutation_with_the_last_at_the_end() {
         let star: Vec<[usize; 2]> = (1..50).map(|v| [0, v]).collect();
-        let two_parts: Vec<[usize; 2]> = (0..40)
-            .flat_map(|v| [[v, v + 1], [v + 50, v + 51]])
-            .collect();
+        let two_parts: Vec<[usize; 2]> = (0..40).flat_map(|v| [[v, v + 1], [v + 50, v + 51]]).collect();
         let mut graphs: Vec<Graph> = (0..5).map(|n| graph(n, &[])).collect();
         graphs.extend([
             graph(2, &[[0, 1]]),
@@ -312,10 +274,7 @@ mod tests {
                 assert_eq!(order[n - last.len()..], last[..]);
                 let mut sorted = order.clone();
                 sorted.sort_unstable();
-                assert!(
-                    sorted.iter().copied().eq(0..n),
-                    "{n} vertices, {m} of them last"
-                );
+                assert!(sorted.iter().copied().eq(0..n), "{n} vertices, {m} of them last");
             }
         }
     }
@@ -333,12 +292,7 @@ mod tests {
         }
         for (v, size) in size.iter().enumerate() {
             let below = v + 1 - size..v;
-            assert!(
-                below
-                    .clone()
-                    .all(|w| below.contains(&parent[w]) || parent[w] == v),
-                "subtree of {v}"
-            );
+            assert!(below.clone().all(|w| below.contains(&parent[w]) || parent[w] == v), "subtree of {v}");
         }
     }
 
@@ -358,9 +312,7 @@ mod tests {
         let graph = grid(50, 40);
         let expected = elimination_order(&graph, &[5, 6]).expect("small graphs can be ordered");
         std::thread::scope(|scope| {
-            let all: Vec<_> = (0..8)
-                .map(|_| scope.spawn(|| elimination_order(&graph, &[5, 6])))
-                .collect();
+            let all: Vec<_> = (0..8).map(|_| scope.spawn(|| elimination_order(&graph, &[5, 6]))).collect();
             for one in all {
                 assert_eq!(one.join().expect("no panic"), Ok(expected.clone()));
             }

@@ -31,12 +31,7 @@ impl Panels {
             rows.extend_from_slice(supernodes.supernode(s).pattern());
             start.push(rows.len());
         }
-        Panels {
-            columns,
-            start,
-            rows,
-            dense: supernodes.col_ptr_for_val().to_vec(),
-        }
+        Panels { columns, start, rows, dense: supernodes.col_ptr_for_val().to_vec() }
     }
 
     pub fn unknowns(&self) -> usize {
@@ -83,9 +78,7 @@ impl Panels {
     }
 
     fn entries(&self) -> usize {
-        (0..self.count())
-            .map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2)
-            .sum()
+        (0..self.count()).map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2).sum()
     }
 
     /// Visits the entries (row, column) of supernode `s` in the order of the forward copy, counted inside it.
@@ -105,9 +98,7 @@ impl Panels {
         let (width, height) = (self.width(s), self.rows(s).len());
         for (first, size) in blocks(0, width).rev() {
             (first + size..height).for_each(|i| (first..first + size).for_each(|j| visit(i, j)));
-            (first..first + size)
-                .rev()
-                .for_each(|j| (j..first + size).for_each(|i| visit(i, j)));
+            (first..first + size).rev().for_each(|j| (j..first + size).for_each(|i| visit(i, j)));
         }
     }
 }
@@ -122,9 +113,7 @@ const BLOCK: usize = 8;
 
 /// Cuts `from..to` into blocks (first, size): as many of `BLOCK` as fit, then the rest.
 fn blocks(from: usize, to: usize) -> impl DoubleEndedIterator<Item = (usize, usize)> {
-    (from..to)
-        .step_by(BLOCK)
-        .map(move |first| (first, BLOCK.min(to - first)))
+    (from..to).step_by(BLOCK).map(move |first| (first, BLOCK.min(to - first)))
 }
 
 /// Calls a function of the block size that is known when compiling.
@@ -157,10 +146,7 @@ impl Factor {
                 of_size!(size, solve_rows(&mut l, &mut x[rows[0]..], first));
             }
             for (first, size) in blocks(width, rows.len()) {
-                of_size!(
-                    size,
-                    subtract_rows(&mut l, x, &rows[..width], &rows[first..])
-                );
+                of_size!(size, subtract_rows(&mut l, x, &rows[..width], &rows[first..]));
             }
         }
     }

@@ -16,10 +16,7 @@ pub fn triangles(nx: usize, ny: usize) -> Vec<[usize; 3]> {
     (0..nx * ny)
         .map(|c| (c % nx, c / nx))
         .flat_map(|(i, j)| {
-            [
-                [node(i, j), node(i + 1, j), node(i + 1, j + 1)],
-                [node(i, j), node(i + 1, j + 1), node(i, j + 1)],
-            ]
+            [[node(i, j), node(i + 1, j), node(i + 1, j + 1)], [node(i, j), node(i + 1, j + 1), node(i, j + 1)]]
         })
         .collect()
 }
@@ -32,10 +29,7 @@ pub fn grid_matrix(nx: usize, ny: usize, last: &[usize]) -> CsMat<f64> {
     let graph = Graph::from_cliques(nodes, elements.iter().map(|e| &e[..]));
     let order = elimination_order(&graph, last).expect("a small graph can be ordered");
     let mut new_of = vec![0; nodes];
-    order
-        .iter()
-        .enumerate()
-        .for_each(|(new, &old)| new_of[old] = new);
+    order.iter().enumerate().for_each(|(new, &old)| new_of[old] = new);
 
     let mut a = TriMat::new((2 * nodes, 2 * nodes));
     (0..2 * nodes).for_each(|i| a.add_triplet(i, i, 1.0));
@@ -59,7 +53,5 @@ pub fn dense(a: &CsMat<f64>) -> nalgebra::DMatrix<f64> {
 
 /// max |x_i - y_i|
 pub fn distance(x: &[f64], y: &[f64]) -> f64 {
-    x.iter()
-        .zip(y)
-        .fold(0.0, |d: f64, (x, y)| d.max((x - y).abs()))
+    x.iter().zip(y).fold(0.0, |d: f64, (x, y)| d.max((x - y).abs()))
 }

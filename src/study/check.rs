@@ -1,5 +1,232 @@
-use super::run::Request;
-use crate::Result;
-pub fn command(_: &Request) -> Result<String> {
-    Ok(String::new())
+//! `coralpipe check`: everything that can be wrong with a case or a mesh, found without solving.
+
+use super::run::{Loaded, Request, load};
+use crate::model::case::{Case, Load};
+use crate::model::mesh::{Group, Mesh};
+use crate::model::quality;
+use crate::model::resolve::Model;
+use crate::physics::joint::{Friction, JointLaw};
+use crate::physics::material::Material;
+use crate::physics::pulse::Pulse;
+use crate::{Error, Result};
+use std::collections::BTreeMap;
+
+/// Below this an element's stiffness suffers.
+const SMALLEST_GOOD_ANGLE: f64 = 10.;
+/// Elements a wavelength needs for linear shape functions to carry it with a few per cent error in speed.
+const ELEMENTS_PER_WAVELENGTH: f64 = 10.;
+
+/// A report on a case, or on a mesh alone where the request names an `.msh`; errors as those of a run.
+pub fn command(request: &Request) -> Result<String> {
+    if request.case.extension().is_some_and(|e| e.eq_ignore_ascii_case("msh")) {
+        if !request.geo.is_empty() || !request.sets.is_empty() || request.mesh.is_some() {
+            return Err(Error::input("check FILE.msh looks at the mesh alone: --geo, --set and --mesh need a case"));
+        }
+        let mesh = Mesh::read(&request.case)?;
+        quality::refuse_folded(&mesh)?;
+        return Ok(report(&[counts(&mesh), groups(&mesh, |_| String::new()), shapes(&mesh)]));
+    }
+    let Loaded { case, meshed, model } = load(request)?;
+    let parts = [
+        format!("{}\n{}", meshed.told, counts(&meshed.mesh)),
+        groups(&meshed.mesh, |group| taken_for(group, &case, &model)),
+        shapes(&meshed.mesh),
+        waves(&model),
+        time_and_loads(&case, &model),
+        warnings(&meshed.mesh, &model),
+    ];
+    Ok(report(&parts))
+}
+
+fn report(parts: &[String]) -> String {
+    parts.iter().filter(|p| !p.is_empty()).map(String::as_str).collect::<Vec<_>>().join("\n")
+}
+
+fn counts(mesh: &Mesh) -> String {
+    let mut by_shape = BTreeMap::new();
+    for cell in mesh.cells.iter().filter(|c| c.shape.dimension() == 2) {
+        *by_shape.entry(cell.shape).or_insert(0) += 1;
+    }
+    let shapes: Vec<String> = by_shape.iter().map(|(shape, n)| format!("{n} {shape:?}")).collect();
+    format!("{}: {} nodes; {}; {} turned anticlockwise\n", mesh.name, mesh.points.len(), shapes.join(", "), mesh.turned)
+}
+
+fn groups(mesh: &Mesh, taken_for: impl Fn(&Group) -> String) -> String {
+    let row = |group: &Group| {
+        let size = match group.dimension {
+            0 => mesh.nodes_of(group).first().map_or(String::new(), |&n| {
+                let [x, y] = mesh.points[n];
+                format!("point at ({x:.4}, {y:.4}) m")
+            }),
+            1 => format!("{:6} lines, {:10.4} m", group.cells.len(), mesh.measure_of(group)),
+            _ => format!("{:6} elements, {:10.4} m2", group.cells.len(), mesh.measure_of(group)),
+        };
+        format!("  {:<18} {size:<30} {}", group.name, taken_for(group)).trim_end().to_string() + "\n"
+    };
+    mesh.groups.iter().rev().map(row).fold("groups\n".to_string(), |text, row| text + &row)
+}
+
+/// What the case makes of a name.
+fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
+    let mut roles = Vec::new();
+    if let Some((_, material)) = model.materials.iter().find(|(name, _)| name == &group.name) {
+        roles.push(material_role(material));
+    }
+    if let Some(seam) = model.seams.iter().position(|s| s.curve == group.name) {
+        roles.push(interface_role(seam, model));
+    }
+    if let Some(axes) = case.supports.get(&group.name) {
+        let names: Vec<&str> = axes.iter().map(|a| ["x", "y"][a.index()]).collect();
+        roles.push(format!("support: u_{} = 0", names.join(" = u_")));
+    }
+    for (_, load) in case.loads.iter().filter(|(name, _)| *name == group.name) {
+        let kind = match load {
+            Load::Pressure(_) => "pressure",
+            Load::Traction(_) => "traction",
+            Load::BodyForce(_) => "body force",
+            Load::Force(_) => "force",
+        };
+        roles.push(format!("load: {kind}, {}", pulse(load.pulse())));
+    }
+    if model.probes.iter().any(|p| p.name == group.name) {
+        roles.push("probe".into());
+    }
+    if roles.is_empty() { "not used".into() } else { roles.join("; ") }
+}
+
+fn material_role(m: &Material) -> String {
+    format!(
+        "material: E {:.4} MPa, nu {}, rho {} kg/m3; c_p {:.1}, c_s {:.1} m/s; impedances {:.4}, {:.4} MPa s/m",
+        m.young / 1e6,
+        m.poisson,
+        m.density,
+        m.p_speed(),
+        m.s_speed(),
+        m.density * m.p_speed() / 1e6,
+        m.density * m.s_speed() / 1e6
+    )
+}
+
+/// The laws along an interface, once for each ground it runs through.
+fn interface_role(seam: usize, model: &Model) -> String {
+    let mut laws: BTreeMap<&str, (usize, JointLaw)> = BTreeMap::new();
+    for (joint, (law, _)) in model.joints.iter().zip(&model.laws).filter(|(j, _)| j.seam == seam) {
+        let ground = model.material_of[joint.ground_cell].map_or("", |m| &model.materials[m].0);
+        laws.entry(ground).or_insert((0, *law)).0 += 1;
+    }
+    let text = laws.iter().map(|(ground, (joints, law))| {
+        let friction = match law.friction {
+            Friction::Coulomb(f) => f,
+            Friction::Tresca(_) => f64::NAN,
+        };
+        format!(
+            "{joints} joints in {ground}, kappa_n {:.4e}, kappa_s {:.4e} Pa/m, f {friction}",
+            law.normal_stiffness, law.tangential_stiffness
+        )
+    });
+    format!("interface of {}: {}", model.seams[seam].body, text.collect::<Vec<_>>().join("; "))
+}
+
+fn pulse(pulse: &Pulse) -> String {
+    match pulse {
+        Pulse::Linear { peak, duration } => format!("linear from {peak} at t = 0 to zero at {duration} s"),
+        Pulse::Step { peak } => format!("step of {peak} at t = 0"),
+        Pulse::Table { times, values } => {
+            let largest = values.iter().fold(0f64, |m, v| if v.abs() > m.abs() { *v } else { m });
+            format!("table of {} times, largest value {largest}", times.len())
+        }
+    }
+}
+
+/// The worst angle and the sides, each with its place.
+fn shapes(mesh: &Mesh) -> String {
+    let faces: Vec<usize> = (0..mesh.cells.len()).filter(|&c| mesh.cells[c].shape.dimension() == 2).collect();
+    let place = |cell: usize| {
+        let [x, y] = mesh.centroid(&mesh.cells[cell]);
+        format!("at ({x:.4}, {y:.4}) m")
+    };
+    let extreme = |value: &dyn Fn(usize) -> f64| {
+        let worst = faces.iter().copied().min_by(|&a, &b| value(a).total_cmp(&value(b)));
+        worst.map(|cell| (value(cell), place(cell)))
+    };
+    let rows = [
+        ("smallest angle", "degrees", 1., extreme(&|c| quality::angles(mesh, &mesh.cells[c])[0])),
+        ("largest angle", "degrees", -1., extreme(&|c| -quality::angles(mesh, &mesh.cells[c])[1])),
+        ("shortest side", "m", 1., extreme(&|c| quality::sides(mesh, &mesh.cells[c])[0])),
+        ("longest side", "m", -1., extreme(&|c| -quality::sides(mesh, &mesh.cells[c])[1])),
+    ];
+    let row = |(what, unit, sign, found): &(&str, &str, f64, Option<(f64, String)>)| {
+        found
+            .as_ref()
+            .map_or(String::new(), |(value, place)| format!("  {what:<15} {:9.4} {unit} {place}\n", sign * value))
+    };
+    rows.iter().map(row).fold("elements\n".to_string(), |text, row| text + &row)
+}
+
+/// For each material: how fine its elements are against its waves and the time step.
+fn waves(model: &Model) -> String {
+    let mut text = format!(
+        "waves ({ELEMENTS_PER_WAVELENGTH} elements a wavelength; steps = time step over the time a P wave takes through an element)\n"
+    );
+    for (number, (name, material)) in model.materials.iter().enumerate() {
+        let [shortest, longest] = size_range(model, number);
+        let carried = |speed: f64| speed / (ELEMENTS_PER_WAVELENGTH * longest);
+        let courant = |h: f64| material.p_speed() * model.time.step / h;
+        text += &format!(
+            "  {name:<18} h {shortest:.4} to {longest:.4} m: P waves to {:.0} Hz, S waves to {:.0} Hz; steps {:.2} to {:.2}\n",
+            carried(material.p_speed()),
+            carried(material.s_speed()),
+            courant(longest),
+            courant(shortest)
+        );
+    }
+    text
+}
+
+fn size_range(model: &Model, material: usize) -> [f64; 2] {
+    let cells = (0..model.mesh.cells.len()).filter(|&c| model.material_of[c] == Some(material));
+    let sides = cells.map(|c| quality::sides(&model.mesh, &model.mesh.cells[c]));
+    sides.fold([f64::INFINITY, 0.], |[low, high], [l, h]| [low.min(l), high.max(h)])
+}
+
+fn time_and_loads(case: &Case, model: &Model) -> String {
+    let time = &model.time;
+    let mut text = format!(
+        "time\n  {} steps of {} s to {} s, a frame every {} steps\n",
+        time.steps,
+        time.step,
+        time.step * time.steps as f64,
+        time.steps_per_frame
+    );
+    for (group, load) in case.loads.iter() {
+        let rise = load.pulse().rise_time();
+        text += &match rise > 0. {
+            true => format!("  load on {group} rises in {rise} s: {:.1} time steps\n", rise / time.step),
+            false => format!(
+                "  load on {group} jumps: peak accelerations follow the element size and the time step, displacements do not\n"
+            ),
+        };
+    }
+    text
+}
+
+fn warnings(mesh: &Mesh, model: &Model) -> String {
+    let mut warnings = model.warnings.clone();
+    let flat = mesh.cells.iter().filter(|c| c.shape.dimension() == 2);
+    let worst = flat.map(|c| quality::angles(mesh, c)[0]).fold(f64::INFINITY, f64::min);
+    if worst < SMALLEST_GOOD_ANGLE {
+        warnings.push(format!(
+            "the smallest angle, {worst:.1} degrees, is below {SMALLEST_GOOD_ANGLE}: stresses there are poor"
+        ));
+    }
+    for load in &model.loads {
+        let rise = load.pulse.rise_time();
+        if rise > 0. && rise < 5. * model.time.step {
+            warnings.push(format!(
+                "the load on {} rises in {rise} s, less than 5 time steps of {} s: its rise is not resolved",
+                load.group, model.time.step
+            ));
+        }
+    }
+    warnings.iter().map(|w| format!("warning: {w}\n")).collect()
 }

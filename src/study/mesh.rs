@@ -1,6 +1,6 @@
 //! Where the mesh of a case comes from: a file, or the case's script through gmsh.
 
-use super::gmsh;
+use super::meshing::{Outcome, ensure_mesh};
 use super::run::Request;
 use crate::model::case::{Case, Geometry};
 use crate::model::mesh::Mesh;
@@ -38,8 +38,12 @@ pub fn obtain(case: &Case, geo: &BTreeMap<String, f64>, file: Option<&Path>) -> 
             let path = mesh_path(case, geo);
             let mut all = parameters.clone();
             all.extend(geo.clone());
-            let meshing = gmsh::ensure_mesh(&case.resolve(script), &all, &path)?;
-            (path, Some(meshing.to_string()), meshing.warnings)
+            let meshing = ensure_mesh(&case.resolve(script), &all, &path)?;
+            let warnings = match &meshing.outcome {
+                Outcome::Unchanged => vec![],
+                Outcome::Made { warnings, .. } => warnings.clone(),
+            };
+            (path, Some(meshing.to_string()), warnings)
         }
         (None, None) => {
             return Err(Error::input(format!(

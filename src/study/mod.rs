@@ -1,13 +1,16 @@
 //! Whole runs: what each command does, from the case file to the last line on the screen.
 
 pub mod check;
+pub mod constants;
 pub mod gmsh;
 pub mod mesh;
+pub mod meshing;
 pub mod modes;
 mod prepare;
 mod recorder;
 pub mod run;
 mod screen;
+pub mod script;
 
 /// `coralpipe schema`: the JSON Schema of the case file.
 pub fn schema() -> String {

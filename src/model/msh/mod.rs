@@ -185,7 +185,7 @@ fn physical_names(tokens: &mut Tokens) -> Result<Vec<PhysicalName>> {
 }
 
 fn partitioned(tokens: &Tokens) -> Error {
-    tokens.error("the mesh is partitioned; save it whole: without -part and PartitionMesh, or after UnpartitionMesh")
+    tokens.error("the mesh is partitioned; save it whole, without -part and without PartitionMesh")
 }
 
 fn parametric(tokens: &Tokens) -> Error {

@@ -1,0 +1,110 @@
+//! What a Gmsh script says about itself without being run: its constants, and the files it reads.
+
+use super::constants::{Constant, Expression, constants, included, words};
+use crate::{Error, Result};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A Gmsh script with the files it includes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Script {
+    pub path: PathBuf,
+    /// in order of appearance, over all included scripts; computed names (`r~{i}`) and texts are left out
+    pub constants: Vec<Constant>,
+    /// the bytes of the script, then those of every file it reads through a literal file name
+    pub bytes: Vec<u8>,
+}
+
+impl Script {
+    /// Errors: the script cannot be read.
+    pub fn read(path: &Path) -> Result<Script> {
+        let mut script = Script { path: path.into(), constants: Vec::new(), bytes: Vec::new() };
+        let mut waiting = vec![path.to_path_buf()];
+        let mut seen: Vec<PathBuf> = Vec::new();
+        while let Some(file) = waiting.pop() {
+            let bytes = match std::fs::read(&file) {
+                Ok(bytes) => bytes,
+                Err(e) if seen.is_empty() => {
+                    return Err(Error::input(format!("the script {} cannot be read: {e}", path.display())));
+                }
+                // Gmsh says what it thinks of an included file that is missing
+                Err(_) => continue,
+            };
+            script.bytes.extend_from_slice(&bytes);
+            if seen.is_empty() || file.extension().is_some_and(|e| e == "geo") {
+                let words = words(&String::from_utf8_lossy(&bytes));
+                for constant in constants(&words) {
+                    // as in Gmsh, the first definition stays
+                    if !script.constants.iter().any(|c| c.name == constant.name) {
+                        script.constants.push(constant);
+                    }
+                }
+                let folder = file.parent().unwrap_or(Path::new(""));
+                let files = included(&words).into_iter().map(|name| folder.join(name));
+                waiting.extend(files.rev().filter(|f| !seen.contains(f)));
+            }
+            seen.push(file);
+        }
+        Ok(script)
+    }
+
+    /// Every constant's value in force: the one given, or the script's default.
+    ///
+    /// Errors: a parameter that is no constant of the script, is not finite, or lies outside the constant's bounds.
+    pub fn values(&self, parameters: &BTreeMap<String, f64>) -> Result<BTreeMap<String, Expression>> {
+        for (name, &value) in parameters {
+            let constant = self.constants.iter().find(|c| c.name == *name).ok_or_else(|| self.unknown(name))?;
+            self.check_bounds(constant, value)?;
+        }
+        let value = |c: &Constant| parameters.get(&c.name).map_or(c.default.clone(), |&v| Expression::Number(v));
+        Ok(self.constants.iter().map(|c| (c.name.clone(), value(c))).collect())
+    }
+
+    fn check_bounds(&self, constant: &Constant, value: f64) -> Result<()> {
+        let bound = |e: &Option<Expression>| e.as_ref().and_then(Expression::number);
+        let (min, max) = (bound(&constant.min), bound(&constant.max));
+        let inside = value.is_finite() && min.is_none_or(|m| value >= m) && max.is_none_or(|m| value <= m);
+        let range = match (min, max) {
+            _ if inside => return Ok(()),
+            (Some(min), Some(max)) => format!("lie between {min} and {max}"),
+            (Some(min), None) => format!("be at least {min}"),
+            (None, Some(max)) => format!("be at most {max}"),
+            (None, None) => "be a finite number".into(),
+        };
+        let label = constant.label.as_ref().map(|l| format!(" (\"{l}\")")).unwrap_or_default();
+        let (name, script) = (&constant.name, self.path.display());
+        Err(Error::input(format!("{name} = {value} is out of bounds: in {script} {name}{label} must {range}")))
+    }
+
+    fn unknown(&self, name: &str) -> Error {
+        let script = self.path.display();
+        if self.constants.is_empty() {
+            return Error::input(format!("{script} has no constant \"{name}\": it has no DefineConstant at all"));
+        }
+        let nearest = self.constants.iter().map(|c| (distance(name, &c.name), &c.name)).min();
+        let hint = match nearest {
+            Some((d, near)) if d <= name.chars().count().div_ceil(2) => {
+                format!(", did you mean \"{near}\"?")
+            }
+            _ => ".".into(),
+        };
+        let list: Vec<String> = self.constants.iter().map(|c| format!("{} = {}", c.name, c.default)).collect();
+        Error::input(format!("{script} has no constant \"{name}\"{hint} It has: {}", list.join(", ")))
+    }
+}
+
+/// Levenshtein's distance: letters to insert, delete or replace.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.to_lowercase().chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.to_lowercase().chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
