@@ -25,8 +25,36 @@ pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Resu
         .factor(&combine(&[(1., &stiffness), (shift, &system.mass)]))
         .map_err(|e| Error::input(format!("the stiffness matrix is not positive definite at unknown {}", e.unknown)))?;
     let modes = smallest_modes(&factor, shift, &system.mass, count)?;
+    let lambdas: Vec<f64> = modes.iter().map(|m| m.lambda).collect();
+    refuse_gaps(symbolic, &stiffness, &system.mass, &lambdas, shift)?;
     let frequency = |lambda: f64| lambda.max(0.).sqrt() / (2. * PI);
     Ok(modes.into_iter().map(|m| NaturalMode { frequency: frequency(m.lambda), shape: m.shape }).collect())
+}
+
+/// Compares the found eigenvalues below the last one with their true number, the negative pivots of K - sigma M.
+fn refuse_gaps(
+    symbolic: &Symbolic,
+    stiffness: &CsMat<f64>,
+    mass: &CsMat<f64>,
+    lambdas: &[f64],
+    shift: f64,
+) -> Result<()> {
+    let Some(&last) = lambdas.last().filter(|&&l| l > shift) else { return Ok(()) };
+    // sigma just below the last eigenvalue; where a pivot happens to vanish, a little further below.
+    for below in [1e-8, 2e-8, 5e-8, 1e-7] {
+        let sigma = last * (1. - below);
+        if let Ok(count) = symbolic.negative_pivots(&combine(&[(1., stiffness), (-sigma, mass)])) {
+            let found = lambdas.iter().filter(|&&l| l < sigma).count();
+            return match count == found {
+                true => Ok(()),
+                false => Err(Error::NoConvergence(format!(
+                    "{count} natural modes lie below {:.6} Hz, but {found} were found",
+                    last.sqrt() / (2. * PI)
+                ))),
+            };
+        }
+    }
+    Err(Error::NoConvergence("the number of natural modes could not be counted: every shift meets a zero pivot".into()))
 }
 
 /// Parts that nothing holds move at 0 Hz; this shift [1/s^2] far below the mesh's own frequencies keeps K definite.
