@@ -11,12 +11,15 @@ use std::sync::Mutex;
 
 const FORMATS: [(&str, &str, u8); 4] = [("41a", "4.1", 0), ("41b", "4.1", 1), ("22a", "2.2", 0), ("22b", "2.2", 1)];
 
-/// The tutorials' folder, and gmsh; none if they are not installed, which is a failure where CI is set.
+/// The tutorials' folder, and the gmsh they belong to: those of `.venv`, or the folder `CORALPIPE_TUTORIALS` and the
+/// gmsh found as always. None if they are not installed, which is a failure where CI is set.
 fn tutorials() -> Option<(PathBuf, Gmsh)> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder = std::env::var_os("CORALPIPE_TUTORIALS")
-        .map_or_else(|| top.join(".venv/share/doc/gmsh/tutorials"), PathBuf::from);
-    match Gmsh::find(top) {
+    let (folder, gmsh) = match std::env::var_os("CORALPIPE_TUTORIALS") {
+        Some(folder) => (PathBuf::from(folder), Gmsh::find(top)),
+        None => (top.join(".venv/share/doc/gmsh/tutorials"), Gmsh::find_in(None, None, &[top])),
+    };
+    match gmsh {
         Ok(gmsh) if folder.join("t1.geo").is_file() => Some((folder, gmsh)),
         found => {
             let why = found.err().map_or_else(|| format!("no t1.geo in {}", folder.display()), |e| e.to_string());

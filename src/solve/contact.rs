@@ -13,7 +13,7 @@ use nalgebra::{Matrix2, Vector2};
 /// Relative residual below which a status may still flip: round-off decides it, and it carries no force.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Damping of the joints, C(U) of eq. (16): the closed part of beta times their stiffness acts on the jump's rate.
+/// Damping of the joints, C(U) of eq. (16): beta times the stiffness of what was closed acts on the jump's rate.
 #[derive(Debug, Clone)]
 pub struct JointDamping {
     pub beta: f64,
@@ -96,8 +96,9 @@ impl Contact {
         statuses: &[Status],
         force: Vec<f64>,
     ) -> Vec<f64> {
-        if self.factored.as_ref().is_none_or(|(of, _)| of != statuses) {
-            self.factored = Some((statuses.to_vec(), self.tangent(problem, responses).partial_piv_lu()));
+        let key = problem.tangent_key(statuses);
+        if self.factored.as_ref().is_none_or(|(of, _)| *of != key) {
+            self.factored = Some((key, self.tangent(problem, responses).partial_piv_lu()));
         }
         let (_, lu) = self.factored.as_ref().expect("set above");
         solve_dense(lu, force)
@@ -180,11 +181,17 @@ impl Problem<'_> {
                     Some(damping) => {
                         let offset = self.interface.local(point, &damping.rate_offset);
                         let jump = self.interface.local(point, jumps);
-                        damping.add_to(elastic, &law, jump * damping.constants.a1 + offset)
+                        damping.add_to(elastic, &law, old.status, jump * damping.constants.a1 + offset)
                     }
                 }
             })
             .collect()
+    }
+
+    /// What the tangent depends on: the statuses, and with damping those of the last step.
+    fn tangent_key(&self, statuses: &[Status]) -> Vec<Status> {
+        let last = self.old.iter().filter(|_| self.damping.is_some()).map(|o| o.status);
+        statuses.iter().copied().chain(last).collect()
     }
 
     /// f p at every point [Pa].
@@ -199,12 +206,13 @@ impl Problem<'_> {
 }
 
 impl JointDamping {
-    /// Adds beta D rate, D the stiffness that the status leaves: all of it sticking, the normal part slipping, none open.
-    fn add_to(&self, elastic: Response, law: &JointLaw, rate: Vector2<f64>) -> Response {
-        let d = match elastic.status {
+    /// Adds beta D rate, D the stiffness that the last step's status left: all of it sticking, the normal part slipping,
+    /// none open. The status of this step would make the force jump where a joint opens, and leave no equilibrium there.
+    fn add_to(&self, elastic: Response, law: &JointLaw, last: Status, rate: Vector2<f64>) -> Response {
+        let d = match last {
             Status::Open => Matrix2::zeros(),
             Status::Stick => law.closed_stiffness(),
-            _ => Matrix2::new(0., 0., 0., law.normal_stiffness),
+            Status::SlipForward | Status::SlipBackward => Matrix2::new(0., 0., 0., law.normal_stiffness),
         };
         Response {
             traction: elastic.traction + d * rate * self.beta,
