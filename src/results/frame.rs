@@ -132,7 +132,8 @@ impl Grid {
         };
         let mut bytes = Vec::new();
         vtk.try_into_xml_format(Compressor::ZLib, 1)
-            .and_then(|xml| Ok(xml.write(&mut bytes)?))
+            .map_err(|e| e.to_string())
+            .and_then(|xml| xml.write(&mut bytes).map_err(|e| e.to_string()))
             .map_err(|e| Error::input(format!("the frame at {} s cannot be written as VTU: {e}", frame.time)))?;
         Ok(bytes)
     }
