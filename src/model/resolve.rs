@@ -1,6 +1,6 @@
 //! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
 
-use super::case::{self, Case, Damping, Integration, Mass, Newmark, Newton, Probe, Start};
+use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Probe, Quad4, Start};
 use super::mesh::{Group, Mesh};
 use super::quality;
 use super::split::{self, Joint, Pair, Seam};
@@ -20,6 +20,7 @@ pub struct Model {
     pub materials: Vec<(String, Material)>,
     /// for each cell the index of its material, none for lines and points
     pub material_of: Vec<Option<usize>>,
+    pub quad4: Quad4,
     pub mass: Mass,
     /// names of the open interfaces; joints refer to them
     pub seams: Vec<Seam>,
@@ -32,11 +33,23 @@ pub struct Model {
     pub loads: Vec<Load>,
     pub probes: Vec<NodeProbe>,
     pub damping: Option<Damping>,
-    pub newmark: Newmark,
+    pub analysis: Analysis,
+    /// downwards [m/s^2]
+    pub gravity: f64,
+    /// displacement [m] and velocity [m/s] of every node at t = 0
+    pub initial: Initial,
+    pub integrator: Integrator,
     pub newton: Newton,
     pub start: Start,
     pub time: TimeGrid,
     pub warnings: Vec<String>,
+}
+
+/// Motion of the nodes at t = 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Initial {
+    pub displacement: Vec<[f64; 2]>,
+    pub velocity: Vec<[f64; 2]>,
 }
 
 /// Equal steps from t = 0.
@@ -109,7 +122,11 @@ impl Model {
             joints: opened.joints,
             mass: case.mass,
             damping: case.damping,
-            newmark: case.time.newmark,
+            initial: initial(case, &mesh)?,
+            analysis: case.analysis,
+            gravity: case.gravity.0,
+            quad4: case.elements.quad4,
+            integrator: case.time.integrator(),
             newton: case.newton,
             start: case.time.start,
             time: time_grid(case, &mut warnings),
@@ -227,6 +244,19 @@ fn supports(case: &Case, mesh: &Mesh) -> Result<Vec<[bool; 2]>> {
         }
     }
     Ok(fixed)
+}
+
+fn initial(case: &Case, mesh: &Mesh) -> Result<Initial> {
+    let zero = vec![[0.; 2]; mesh.points.len()];
+    let mut initial = Initial { displacement: zero.clone(), velocity: zero };
+    for (name, motion) in &case.initial {
+        let group = mesh.group(name).map_err(|e| Error::input(format!("initial: {e}")))?;
+        for node in mesh.nodes_of(group) {
+            initial.displacement[node] = motion.displacement.map(f64::from);
+            initial.velocity[node] = motion.velocity.map(f64::from);
+        }
+    }
+    Ok(initial)
 }
 
 fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
@@ -360,6 +390,7 @@ fn unused_groups(case: &Case, mesh: &Mesh) -> Option<String> {
         case.materials.contains_key(name)
             || case.interfaces.contains_key(name)
             || case.supports.contains_key(name)
+            || case.initial.contains_key(name)
             || loaded.contains(name.as_str())
     };
     let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !is_used(&g.name));

@@ -93,6 +93,16 @@ quantity! {
 }
 
 quantity! {
+    /// Velocity [m/s].
+    Velocity, "a velocity", &[("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/s", 1e3), ("km/h", 1.0 / 3.6)]
+}
+
+quantity! {
+    /// Acceleration [m/s^2].
+    Acceleration, "an acceleration", &[("m/s^2", 1.0), ("cm/s^2", 1e-2), ("mm/s^2", 1e-3), ("g", KGF)]
+}
+
+quantity! {
     /// Events or decay per time [1/s].
     Rate, "a rate", &[("1/s", 1.0), ("1/ms", 1e3), ("1/min", 1.0 / 60.0)]
 }

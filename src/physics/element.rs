@@ -2,6 +2,7 @@
 //!
 //! Matrices run over the element's unknowns (u_x, u_y of node 0, of node 1, ...), for a slice 1 m thick.
 
+use super::material::Material;
 use super::shape::Shape;
 use nalgebra::{DMatrix, Matrix3};
 
@@ -45,6 +46,22 @@ impl Point {
 /// K = sum B' D B dv [N/m], eq. (5).
 pub fn stiffness(points: &[Point], d: &Matrix3<f64>) -> DMatrix<f64> {
     points.iter().map(|p| p.b().transpose() * d * p.b() * p.dv).sum()
+}
+
+/// B-bar (Hughes 1980): the dilatation is its mean over the element, so nothing locks as nu nears 1/2.
+///
+/// K = sum B' D_dev B dv + K_b V b b', with b' = 1/V sum (1, 1, 0) B dv [N/m].
+pub fn b_bar_stiffness(points: &[Point], material: &Material) -> DMatrix<f64> {
+    let b = mean_dilatation(points);
+    let volume: f64 = points.iter().map(|p| p.dv).sum();
+    stiffness(points, &material.deviatoric()) + b.transpose() * &b * (material.bulk_modulus() * volume)
+}
+
+/// The row that gives the mean of eps_xx + eps_yy over an element: 1 x 2n [1/m].
+pub fn mean_dilatation(points: &[Point]) -> DMatrix<f64> {
+    let volume: f64 = points.iter().map(|p| p.dv).sum();
+    let trace = DMatrix::from_row_slice(1, 3, &[1., 1., 0.]);
+    points.iter().map(|p| &trace * p.b() * (p.dv / volume)).sum()
 }
 
 /// Consistent mass M = sum rho N' N dv [kg], eq. (6).
@@ -145,7 +162,6 @@ fn triangle_6() -> Vec<([f64; 2], f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::material::Material;
     use nalgebra::DVector;
 
     const STEEL: Material = Material { young: 1e6, poisson: 0.25, density: 7800. };
@@ -193,6 +209,21 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A rectangle's linear dilatation field has no mean: B-bar then stores the deviatoric energy alone, whatever nu.
+    #[test]
+    fn b_bar_agrees_under_constant_strain_and_ignores_the_dilatation_of_bending() {
+        let square = [[-1., -1.], [1., -1.], [1., 1.], [-1., 1.]];
+        let points = points(Shape::Quad4, &square, Integral::Stiffness);
+        let (plain, bar) = (stiffness(&points, &STEEL.plane_strain()), b_bar_stiffness(&points, &STEEL));
+        let field = |f: fn(f64, f64) -> [f64; 2]| DVector::from_iterator(8, square.iter().flat_map(|[x, y]| f(*x, *y)));
+        let linear = field(|x, y| [1e-3 * (x + y / 2.), 1e-3 * (y - x)]);
+        assert!((&plain * &linear - &bar * &linear).norm() < 1e-12 * (&plain * &linear).norm());
+        // u = (xy, 0): eps_xx = y, gamma = x; energy per G: integral of 4/3 y^2 + x^2 = 4 (4/3 + 1) / 3.
+        let bending = field(|x, y| [x * y, 0.]);
+        let energy = bending.dot(&(&bar * &bending));
+        assert!((energy / STEEL.shear_modulus() - 28. / 9.).abs() < 1e-12);
     }
 
     /// Integrals of r^p s^q over the reference triangle are p! q! / (p + q + 2)!.

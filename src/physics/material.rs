@@ -31,6 +31,17 @@ impl Material {
         Matrix3::new(m, lambda, 0., lambda, m, 0., 0., 0., g)
     }
 
+    /// Bulk modulus E / 3(1 - 2 nu) [Pa].
+    pub fn bulk_modulus(&self) -> f64 {
+        self.young / (3. * (1. - 2. * self.poisson))
+    }
+
+    /// The part of D that is not the bulk modulus: D = D_dev + K_b (1, 1, 0)'(1, 1, 0) [Pa].
+    pub fn deviatoric(&self) -> Matrix3<f64> {
+        let g = self.shear_modulus();
+        Matrix3::new(4. * g / 3., -2. * g / 3., 0., -2. * g / 3., 4. * g / 3., 0., 0., 0., g)
+    }
+
     /// sigma_zz = nu (sigma_xx + sigma_yy) [Pa], of a stress (xx, yy, xy).
     pub fn out_of_plane_stress(&self, stress: &Vector3<f64>) -> f64 {
         self.poisson * (stress[0] + stress[1])

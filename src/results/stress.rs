@@ -1,7 +1,8 @@
 //! Stress and strain of the elements, at their centres.
 
+use crate::model::case::Quad4;
 use crate::model::resolve::Model;
-use crate::physics::element::{self, Point};
+use crate::physics::element::{self, Integral, Point};
 use crate::physics::material::Material;
 use crate::physics::shape::Shape;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -30,6 +31,8 @@ pub struct Recovery {
 struct Face {
     nodes: Vec<usize>,
     b: DMatrix<f64>,
+    /// of B-bar elements, whose bulk stress follows the mean dilatation
+    mean_dilatation: Option<DMatrix<f64>>,
     material: Material,
 }
 
@@ -38,7 +41,14 @@ impl Recovery {
         let face = |(cell, material): (usize, &Material)| {
             let cell = &model.mesh.cells[cell];
             let at: Vec<[f64; 2]> = cell.nodes.iter().map(|&n| model.mesh.points[n]).collect();
-            Face { nodes: cell.nodes.clone(), b: centre(cell.shape, &at).b(), material: *material }
+            let b_bar = cell.shape == Shape::Quad4 && model.quad4 == Quad4::BBar;
+            let points = || element::points(cell.shape, &at, Integral::Stiffness);
+            Face {
+                b: centre(cell.shape, &at).b(),
+                mean_dilatation: b_bar.then(|| element::mean_dilatation(&points())),
+                nodes: cell.nodes.clone(),
+                material: *material,
+            }
         };
         Recovery { faces: model.faces().map(face).collect() }
     }
@@ -52,12 +62,15 @@ impl Recovery {
 impl Face {
     fn stress(&self, u: &[[f64; 2]]) -> CellStress {
         let u = DVector::from_iterator(2 * self.nodes.len(), self.nodes.iter().flat_map(|&n| u[n]));
-        let product = &self.b * u;
+        let product = &self.b * &u;
         let strain = Vector3::new(product[0], product[1], product[2]);
-        let stress = self.material.plane_strain() * strain;
-        let out_of_plane = self.material.out_of_plane_stress(&stress);
+        let dilatation = strain[0] + strain[1];
+        let bulk = self.mean_dilatation.as_ref().map_or(dilatation, |b| (b * &u)[0]);
+        let pressure = self.material.bulk_modulus() * bulk;
+        let deviator = self.material.deviatoric() * strain;
+        let out_of_plane = pressure - (deviator[0] + deviator[1]);
         CellStress {
-            stress: [stress[0], stress[1], out_of_plane, stress[2]],
+            stress: [deviator[0] + pressure, deviator[1] + pressure, out_of_plane, deviator[2]],
             strain: [strain[0], strain[1], 0., strain[2] / 2.],
         }
     }

@@ -1,9 +1,10 @@
 //! From elements to the matrices and load vectors of the unknowns: K = sum T' k T.
 
 use super::unknowns::Unknowns;
-use crate::model::case::Mass;
+use crate::model::case::{Mass, Quad4};
 use crate::model::resolve::{Border, Load, Model, Target};
 use crate::physics::element::{self, Integral};
+use crate::physics::shape::Shape;
 use nalgebra::DMatrix;
 use sprs::{CsMat, TriMat};
 
@@ -21,7 +22,10 @@ pub fn stiffness_and_mass(model: &Model, unknowns: &Unknowns) -> (CsMat<f64>, Cs
             Mass::Consistent => element::mass(&for_mass, material.density),
             Mass::Lumped => element::lumped_mass(&for_mass, material.density),
         };
-        let stiffness = element::stiffness(&for_stiffness, &material.plane_strain());
+        let stiffness = match (shape, model.quad4) {
+            (Shape::Quad4, Quad4::BBar) => element::b_bar_stiffness(&for_stiffness, material),
+            _ => element::stiffness(&for_stiffness, &material.plane_strain()),
+        };
         scatter(&mut k, &mut m, unknowns, nodes, &stiffness, &mass);
     }
     (k.to_csr(), m.to_csr())
@@ -82,6 +86,22 @@ pub fn load(model: &Model, unknowns: &Unknowns, load: &Load) -> Vec<f64> {
             }
         }
         Target::Force { nodes, direction } => nodes.iter().for_each(|&node| add(node, *direction)),
+    }
+    f
+}
+
+/// Weight of all faces, integral of N' rho g dv, downwards [N].
+pub fn gravity(model: &Model, unknowns: &Unknowns) -> Vec<f64> {
+    let mut f = vec![0.; unknowns.count];
+    for (cell, material) in model.faces().filter(|_| model.gravity > 0.) {
+        let cell = &model.mesh.cells[cell];
+        let points = element::points(cell.shape, &corners(model, &cell.nodes), Integral::Mass);
+        for (local, &node) in cell.nodes.iter().enumerate() {
+            let weight: f64 = points.iter().map(|p| p.n[local] * material.density * model.gravity * p.dv).sum();
+            for &(i, sign) in unknowns.row(node, 1) {
+                f[i] -= sign * weight;
+            }
+        }
     }
     f
 }

@@ -1,109 +1,86 @@
-//! One Newmark step with contact at the price of a linear one: everything but the joints is linear, so
-//! K* = a0 M + a1 C + K is factored once, with the jumps last.
-//!
-//! A step is one forward sweep, Newton on the jumps with their Schur complement S = L_cc L_cc', one backward sweep.
+//! A system with contact at the price of a linear one: everything but the joints is linear, so its matrix is factored once,
+//! with the jumps last. Solving takes one forward sweep, Newton on the jumps, one backward sweep.
 
 use super::contact::{Contact, JointDamping, Problem, Unsettled};
 use super::interface::JointState;
-use super::newmark::Constants;
-use super::system::{State, System, combine, product};
-use crate::model::case::{Newmark, Newton};
+use super::system::System;
+use crate::model::case::Newton;
 use crate::sparse::{Factor, NotPositiveDefinite, Symbolic};
 use faer::Mat;
+use sprs::CsMat;
 
-/// K* factored for one length of step.
+/// A x + r(j) = b with x the unknowns, j the jumps at their end, r the joint forces.
 pub struct Condensed {
-    pub constants: Constants,
     factor: Factor,
-    /// L_cc, lower triangular: the last rows and columns of L
+    /// L_cc, lower triangular: the last rows and columns of the factor
     trailing: Mat<f64>,
     contact: Contact,
 }
 
-/// An accepted step.
+/// What else than A the factored matrix holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reference {
+    /// nothing: A is positive definite by itself
+    Bodies,
+    /// every joint closed and sticking, because bodies that hang on joints alone make A singular
+    ClosedJoints,
+}
+
 #[derive(Debug, Clone, PartialEq)]
-pub struct Step {
-    pub state: State,
+pub struct Solved {
+    pub x: Vec<f64>,
+    pub joints: Vec<JointState>,
     pub iterations: usize,
     /// the paper's test (19), on the jumps
     pub displacement_test: f64,
 }
 
 impl Condensed {
+    /// Factors `matrix`, which is A plus what `reference` says; S = L_cc L_cc' is the Schur complement of the jumps.
     pub fn new(
         system: &System,
         symbolic: &Symbolic,
-        newmark: Newmark,
-        dt: f64,
+        matrix: &CsMat<f64>,
+        reference: Reference,
         options: Newton,
     ) -> Result<Condensed, NotPositiveDefinite> {
-        let constants = Constants::new(newmark, dt);
-        let effective =
-            combine(&[(1., &system.stiffness), (constants.a0, &system.mass), (constants.a1, &system.damping)]);
-        let factor = symbolic.factor(&effective)?;
+        let factor = symbolic.factor(matrix)?;
         let trailing = factor.trailing(system.interface.count);
-        let contact = Contact::new(&trailing * trailing.transpose(), options);
-        Ok(Condensed { constants, factor, trailing, contact })
+        let mut schur = &trailing * trailing.transpose();
+        let contact = match reference {
+            Reference::Bodies => Contact::new(schur, options),
+            Reference::ClosedJoints => {
+                let closed = system.interface.points.iter().map(|p| p.law.closed_stiffness());
+                system.interface.each_tangent(closed, |i, j, value| schur[(i, j)] -= value);
+                Contact::new(schur, options).stabilised()
+            }
+        };
+        Ok(Condensed { factor, trailing, contact })
     }
 
-    /// From one state to the next, `constants.dt` later; the old one is not touched.
-    pub fn step(&mut self, system: &System, old: &State) -> Result<Step, Unsettled> {
-        let time = old.time + self.constants.dt;
-        let mut q = self.right_hand_side(system, old, time);
-        self.factor.forward(&mut q);
-        let (joints, iterations, displacement_test) = self.solve_jumps(system, old, &mut q)?;
-        self.factor.backward(&mut q);
-
-        let before = |i: usize| [old.q[i], old.v[i], old.a[i]];
-        let a: Vec<f64> = (0..q.len()).map(|i| self.constants.acceleration(q[i], before(i))).collect();
-        let v = (0..q.len()).map(|i| self.constants.velocity(a[i], before(i))).collect();
-        Ok(Step { state: State { time, q, v, a, joints }, iterations, displacement_test })
-    }
-
-    /// f(t) + M (a0 q + a2 v + a3 a) + C (a1 q + a4 v + a5 a).
-    fn right_hand_side(&self, system: &System, old: &State, time: f64) -> Vec<f64> {
-        let before = |i: usize| [old.q[i], old.v[i], old.a[i]];
-        let n = old.q.len();
-        let for_mass: Vec<f64> = (0..n).map(|i| self.constants.for_mass(before(i))).collect();
-        let for_damping: Vec<f64> = (0..n).map(|i| self.constants.for_damping(before(i))).collect();
-        let mut rhs = system.load(time);
-        for (matrix, x) in [(&system.mass, &for_mass), (&system.damping, &for_damping)] {
-            let product = product(matrix, x);
-            rhs.iter_mut().zip(&product).for_each(|(r, p)| *r += p);
-        }
-        rhs
-    }
-
-    /// Between the sweeps: y_c = L_cc^-1 (...) becomes L_cc' j with j the jumps that satisfy the joints.
-    fn solve_jumps(
+    /// Solves for `right_hand_side`, the joints moving on from `old`; `guess` of the jumps starts Newton.
+    pub fn solve(
         &mut self,
         system: &System,
-        old: &State,
-        y: &mut [f64],
-    ) -> Result<(Vec<JointState>, usize, f64), Unsettled> {
-        if system.interface.count == 0 {
-            return Ok((vec![], 0, 0.));
-        }
-        let y_c = &mut y[system.unknowns.first_jump..];
-        let problem = Problem {
-            interface: &system.interface,
-            right_hand_side: &lower_times(&self.trailing, y_c),
-            old: &old.joints,
-            damping: self.joint_damping(system, old),
-        };
-        let solution = self.contact.solve(&problem, system.jumps(&old.q))?;
+        right_hand_side: Vec<f64>,
+        guess: &[f64],
+        old: &[JointState],
+        damping: Option<JointDamping>,
+    ) -> Result<Solved, Unsettled> {
+        let mut x = right_hand_side;
+        self.factor.forward(&mut x);
+        // Between the sweeps y_c = L_cc^-1 (...) becomes L_cc' j, with j the jumps that satisfy the joints.
+        let y_c = &mut x[system.unknowns.first_jump..];
+        let right_hand_side = lower_times(&self.trailing, y_c);
+        let problem = Problem { interface: &system.interface, right_hand_side: &right_hand_side, old, damping };
+        let solution = self.contact.solve(&problem, guess)?;
         y_c.copy_from_slice(&lower_transposed_times(&self.trailing, &solution.jumps));
-        let joints = solution.responses.iter().map(JointState::from).collect();
-        Ok((joints, solution.iterations, solution.displacement_test))
-    }
-
-    fn joint_damping(&self, system: &System, old: &State) -> Option<JointDamping> {
-        let [q, v, a] = [&old.q, &old.v, &old.a].map(|x| system.jumps(x));
-        let offset = |i: usize| -self.constants.for_damping([q[i], v[i], a[i]]);
-        system.joint_beta.map(|beta| JointDamping {
-            beta,
-            constants: self.constants,
-            rate_offset: (0..q.len()).map(offset).collect(),
+        self.factor.backward(&mut x);
+        Ok(Solved {
+            x,
+            joints: solution.responses.iter().map(JointState::from).collect(),
+            iterations: solution.iterations,
+            displacement_test: solution.displacement_test,
         })
     }
 }

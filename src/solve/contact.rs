@@ -49,12 +49,20 @@ pub struct Contact {
     schur: Mat<f64>,
     /// the tolerance is on |S j + r - b| / max(|b|, |S j|, |r|)
     options: Newton,
+    /// part of the closed stiffness that every tangent keeps, so that what slips freely has one
+    stabilisation: f64,
     factored: Option<(Vec<Status>, PartialPivLu<f64>)>,
 }
 
 impl Contact {
     pub fn new(schur: Mat<f64>, options: Newton) -> Self {
-        Contact { schur, options, factored: None }
+        Contact { schur, options, stabilisation: 0., factored: None }
+    }
+
+    /// For equilibrium without inertia, where a body that slips all round can turn without resistance. Only the way to
+    /// the solution changes, not the solution: the residual knows nothing of it.
+    pub fn stabilised(self) -> Self {
+        Contact { stabilisation: 1e-9, ..self }
     }
 
     /// Newton with the statuses inside the loop; where they run in a circle, the fixed point on Tresca's bound.
@@ -106,7 +114,9 @@ impl Contact {
 
     fn tangent(&self, problem: &Problem, responses: &[Response]) -> Mat<f64> {
         let mut tangent = self.schur.clone();
-        let per_point = responses.iter().map(|r| r.tangent);
+        let points = problem.interface.points.iter();
+        let per_point =
+            responses.iter().zip(points).map(|(r, p)| r.tangent + p.law.closed_stiffness() * self.stabilisation);
         problem.interface.each_tangent(per_point, |i, j, value| tangent[(i, j)] += value);
         tangent
     }

@@ -7,6 +7,7 @@ use crate::model::mesh::Mesh;
 use crate::model::split::{Joint, Pair};
 use crate::physics::joint::{JointLaw, Response, Status};
 use nalgebra::{Matrix2, Vector2};
+use std::collections::HashMap;
 
 /// Points on [-1, 1] and weights for a joint line of 2 or 3 nodes: Lobatto at the nodes (Simpson's rule for 3).
 ///
@@ -78,7 +79,7 @@ impl Interface {
         jumps: &[[Option<usize>; 2]],
         first_jump: usize,
     ) -> Interface {
-        let points = joints
+        let points: Vec<JointPoint> = joints
             .iter()
             .zip(laws)
             .enumerate()
@@ -90,7 +91,7 @@ impl Interface {
             })
             .collect();
         let places: Vec<_> = jumps.iter().map(|j| j.map(|q| q.map(|q| q - first_jump))).collect();
-        Interface { count: places.iter().flatten().flatten().count(), points, places }
+        Interface { count: places.iter().flatten().flatten().count(), points: with_common_normals(points), places }
     }
 
     /// R N j: (tangential, normal) jump at a point [as j].
@@ -132,6 +133,32 @@ impl Interface {
             .iter()
             .flat_map(move |&(pair, n)| (0..2).filter_map(move |axis| self.places[pair][axis].map(|i| (i, axis, n))))
     }
+}
+
+/// Where two elements of a curve meet in a node under less than this, the curve is taken as smooth there: cos 30 degrees.
+const SMOOTH: f64 = 0.866;
+
+/// Points at one pair share the mean of their elements' normals, weighted by area, unless the curve has a corner there.
+///
+/// With each element's own normal a body that slips along a polygon would open one element's point and press the other's.
+fn with_common_normals(points: Vec<JointPoint>) -> Vec<JointPoint> {
+    let mut at_pair: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (i, point) in points.iter().enumerate() {
+        if let [(pair, _)] = point.share[..] {
+            at_pair.entry(pair).or_default().push(i);
+        }
+    }
+    let mut smooth = points.clone();
+    for group in at_pair.values() {
+        let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        let sum = [0, 1].map(|k| group.iter().map(|&i| points[i].area * points[i].normal[k]).sum::<f64>());
+        let length = sum[0].hypot(sum[1]);
+        let mean = sum.map(|x| x / length);
+        if group.iter().all(|&i| group.iter().all(|&j| dot(points[i].normal, points[j].normal) > SMOOTH)) {
+            group.iter().for_each(|&i| smooth[i].normal = mean);
+        }
+    }
+    smooth
 }
 
 /// The joint runs anticlockwise round the body, so the outward normal is the tangent turned by -90 degrees.

@@ -8,5 +8,7 @@ pub mod interface;
 pub mod march;
 pub mod modes;
 pub mod newmark;
+pub mod start;
+pub mod step;
 pub mod system;
 pub mod unknowns;

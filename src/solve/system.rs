@@ -22,6 +22,8 @@ pub struct System {
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
     pub interface: Interface,
+    /// weight of everything [N]; acts at all times
+    pub gravity: Vec<f64>,
     /// spatial vector [N per unit of the pulse] and history
     loads: Vec<(Vec<f64>, Pulse)>,
 }
@@ -57,6 +59,7 @@ impl System {
         Ok(System {
             damping: scaled(&mass, 0.),
             joint_beta: None,
+            gravity: assembly::gravity(model, &unknowns),
             loads: loads.collect(),
             unknowns,
             stiffness,
@@ -76,7 +79,7 @@ impl System {
 
     /// f(t) [N].
     pub fn load(&self, time: f64) -> Vec<f64> {
-        let mut f = vec![0.; self.unknowns.count];
+        let mut f = self.gravity.clone();
         for (vector, pulse) in &self.loads {
             let factor = pulse.at(time);
             f.iter_mut().zip(vector).for_each(|(f, r)| *f += factor * r);

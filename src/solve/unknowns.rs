@@ -17,6 +17,8 @@ pub struct Unknowns {
     rows: Vec<Vec<(usize, f64)>>,
     /// for each pair and axis its jump; none where supports hold both nodes
     pub jumps: Vec<[Option<usize>; 2]>,
+    /// (ground, body) of each pair
+    pairs: Vec<[usize; 2]>,
     /// the node whose motion, or whose pair's jump, an unknown is: for messages
     nodes: Vec<usize>,
 }
@@ -57,6 +59,7 @@ impl Unknowns {
             first_jump: owners.len() - jumps.iter().flatten().flatten().count(),
             rows,
             jumps,
+            pairs: pairs.iter().map(|p| [p.ground, p.body]).collect(),
             nodes: owners,
         })
     }
@@ -74,6 +77,29 @@ impl Unknowns {
     /// u = T q at all nodes.
     pub fn at_nodes(&self, q: &[f64]) -> Vec<[f64; 2]> {
         (0..self.rows.len() / 2).map(|node| self.at_node(q, node)).collect()
+    }
+
+    /// q of nodal displacements (or velocities); those of supported nodes do not count.
+    pub fn from_nodes(&self, u: &[[f64; 2]]) -> Vec<f64> {
+        let mut q = vec![0.; self.count];
+        for (row, value) in self.rows.iter().zip(u.as_flattened()) {
+            if let [(unknown, sign)] = row[..] {
+                q[unknown] = sign * value;
+            }
+        }
+        for (place, &[ground, body]) in self.jumps.iter().zip(&self.pairs) {
+            for axis in 0..2 {
+                if let Some(unknown) = place[axis] {
+                    q[unknown] = self.held(u, ground, axis) - self.held(u, body, axis);
+                }
+            }
+        }
+        q
+    }
+
+    /// What a node can have of a displacement: nothing where a support holds it.
+    fn held(&self, u: &[[f64; 2]], node: usize, axis: usize) -> f64 {
+        if self.row(node, axis).is_empty() { 0. } else { u[node][axis] }
     }
 
     /// The node that an unknown belongs to (a jump's ground node).

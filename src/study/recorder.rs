@@ -10,8 +10,8 @@ use crate::results::series::Series;
 use crate::results::summary::{
     ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
 };
-use crate::solve::condensed::Step;
 use crate::solve::energy::Ledger;
+use crate::solve::step::Step;
 use crate::solve::system::State;
 use std::fmt::Write as _;
 use std::fs::File;

@@ -4,12 +4,14 @@ use super::mesh::{self, Meshed};
 use super::prepare::Prepared;
 use super::recorder::{Ending, Recorder};
 use super::screen::Screen;
-use crate::model::case::Case;
-use crate::model::resolve::Model;
+use crate::model::case::{Analysis, Case};
+use crate::model::resolve::{Initial, Model};
 use crate::results::folder::Folder;
 use crate::results::summary::{Inputs, Timing};
 use crate::solve::contact::Unsettled;
-use crate::solve::march::{March, initial_state};
+use crate::solve::march::March;
+use crate::solve::start;
+use crate::solve::step::Scheme;
 use crate::solve::system::State;
 use crate::{Error, Result};
 use sha2::{Digest, Sha256};
@@ -95,10 +97,28 @@ pub fn command(request: &Request) -> Result<String> {
 
 fn ready_to_march(prepared: &Prepared) -> Result<(State, March<'_>)> {
     let Prepared { model, system, symbolic, .. } = prepared;
-    let start = initial_state(system, symbolic, model.start);
-    let march = March::new(system, symbolic, model.newmark, model.time.step, model.newton);
     let not_definite = |e| prepared.not_definite(e);
-    Ok((start.map_err(not_definite)?, march.map_err(not_definite)?))
+    let (scheme, state) = match model.analysis {
+        Analysis::Static => (Scheme::Static, State::at_rest(system)),
+        Analysis::Dynamic => {
+            let rest = start::under_gravity(system, symbolic, model.newton)
+                .map_err(not_definite)?
+                .map_err(|unsettled| no_rest(prepared, &unsettled))?;
+            let Initial { displacement, velocity } = &model.initial;
+            let moving = start::with_motion(system, rest, displacement, velocity);
+            let state = start::with_acceleration(system, symbolic, moving, model.start).map_err(not_definite)?;
+            (Scheme::Dynamic(model.integrator), state)
+        }
+    };
+    let march = March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?;
+    Ok((state, march))
+}
+
+fn no_rest(prepared: &Prepared, unsettled: &Unsettled) -> Error {
+    Error::NoConvergence(format!(
+        "no equilibrium under gravity was found: joint points keep changing between open, sticking and slipping: {}",
+        places(prepared, unsettled)
+    ))
 }
 
 fn march_to_end(
@@ -130,6 +150,14 @@ fn march_to_end(
 
 /// Names the joints that keep changing their status.
 fn unsettled_joints(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: usize) -> String {
+    format!(
+        "no convergence in step {number} after t = {time} s, even with the time step cut by 32: joint points keep changing \
+         between open, sticking and slipping: {}; try a smaller time.step, a larger interface thickness, or damping",
+        places(prepared, unsettled)
+    )
+}
+
+fn places(prepared: &Prepared, unsettled: &Unsettled) -> String {
     let model = &prepared.model;
     let place = |&i: &usize| {
         let point = &prepared.system.interface.points[i];
@@ -139,11 +167,7 @@ fn unsettled_joints(prepared: &Prepared, unsettled: &Unsettled, time: f64, numbe
     let places: Vec<String> = unsettled.points.iter().take(6).map(place).collect();
     let more = unsettled.points.len().saturating_sub(places.len());
     let and_more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    format!(
-        "no convergence in step {number} after t = {time} s, even with the time step cut by 32: joint points keep changing \
-         between open, sticking and slipping: {}{and_more}; try a smaller time.step, a larger interface thickness, or damping",
-        places.join(", ")
-    )
+    places.join(", ") + &and_more
 }
 
 fn with_what_is_left(error: Error, folder: &Folder) -> Error {

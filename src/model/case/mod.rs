@@ -23,6 +23,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
+use crate::model::units::{Acceleration, Length, Velocity};
+
 use damping::DampingKeys;
 pub use damping::{Damping, Rayleigh};
 pub use interface::{Integration, Interface};
@@ -30,7 +32,7 @@ pub use load::{Directed, Load, Loads};
 pub use material::Material;
 pub use probe::Probe;
 pub use sentence::nearest;
-pub use time::{Newmark, Newton, Output, Start, TimeStepping};
+pub use time::{Integrator, Newmark, Newton, Output, Start, TimeStepping};
 
 /// Materials, interfaces, supports, loads and time of one calculation; every name is a physical group of the mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -42,6 +44,9 @@ pub struct Case {
     /// What is calculated, for people.
     #[serde(default)]
     pub title: String,
+    /// "dynamic", or "static": equilibrium at every time step, without inertia and damping. Default: "dynamic".
+    #[serde(default)]
+    pub analysis: Analysis,
     /// The Gmsh script or mesh; left out where the command line gives the mesh.
     #[serde(default)]
     #[schemars(with = "Option<GeometryKeys>")]
@@ -61,6 +66,15 @@ pub struct Case {
     #[serde(default)]
     #[schemars(with = "Option<DampingKeys>")]
     pub damping: Option<Damping>,
+    /// Gravity, downwards [m/s^2]; a dynamic calculation starts from the equilibrium under it. Default: 0.
+    #[serde(default, deserialize_with = "range::not_negative")]
+    pub gravity: Acceleration,
+    /// Velocity and displacement at t = 0 by group; the rest is at rest. Default: none.
+    #[serde(default)]
+    pub initial: BTreeMap<String, Initial>,
+    /// How elements are formulated.
+    #[serde(default)]
+    pub elements: Elements,
     /// Consistent or lumped mass matrix. Default: "consistent".
     #[serde(default)]
     pub mass: Mass,
@@ -131,6 +145,41 @@ impl Axis {
     pub fn index(self) -> usize {
         self as usize
     }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Analysis {
+    #[default]
+    Dynamic,
+    Static,
+}
+
+/// Motion of a group's nodes at t = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub struct Initial {
+    /// (x, y) [m/s]. Default: 0.
+    #[serde(default)]
+    pub velocity: [Velocity; 2],
+    /// (x, y) [m]. Default: 0.
+    #[serde(default)]
+    pub displacement: [Length; 2],
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default, expecting = "an object")]
+pub struct Elements {
+    /// Four-node quadrilaterals: "standard", or "b_bar" (mean dilatation, no volumetric locking). Default: "standard".
+    pub quad4: Quad4,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Quad4 {
+    #[default]
+    Standard,
+    BBar,
 }
 
 /// How inertia is spread over the nodes of an element.

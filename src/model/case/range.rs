@@ -51,6 +51,11 @@ pub fn optional_damping_ratio<'de, D: Deserializer<'de>>(input: D) -> Result<Opt
     Option::<f64>::deserialize(input)?.map(|ratio| check(ratio, (0.0..1.0).contains(&ratio), must)).transpose()
 }
 
+pub fn hht<'de, D: Deserializer<'de>>(input: D) -> Result<f64, D::Error> {
+    let alpha = f64::deserialize(input)?;
+    check(alpha, (-1.0 / 3.0..=0.0).contains(&alpha), "from -1/3 to 0")
+}
+
 pub fn tolerance<'de, D: Deserializer<'de>>(input: D) -> Result<f64, D::Error> {
     let tolerance = f64::deserialize(input)?;
     check(tolerance, 0.0 < tolerance && tolerance < 1.0, "greater than 0 and less than 1")

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::duplicate::Unique;
-use super::{Case, sentence, set, table};
+use super::{Case, Newmark, sentence, set, table};
 use crate::{Error, Result};
 
 impl Case {
@@ -63,6 +63,9 @@ fn validate(case: &Case) -> std::result::Result<(), String> {
             "time.newmark: alpha = {alpha} with delta = {delta} is not unconditionally stable; \
              delta must be at least 0.5 and alpha at least (delta + 0.5)^2 / 4 = {least:.6}"
         ));
+    }
+    if time.hht != 0.0 && time.newmark != Newmark::default() {
+        return Err("time.hht: it sets alpha and delta itself; leave time.newmark out, or hht".into());
     }
     if let Some(every) = case.output.every.filter(|every| *every < time.step) {
         return Err(format!("output.every: it is {every}, and must be at least one time step ({})", time.step));

@@ -19,6 +19,9 @@ pub struct TimeStepping {
     /// Parameters of Newmark's method. Default: the trapezium rule.
     #[serde(default)]
     pub newmark: Newmark,
+    /// Numerical damping alpha of Hilber, Hughes and Taylor [-], from -1/3 to 0; sets alpha and delta of Newmark's method. Default: 0, none.
+    #[serde(default, deserialize_with = "range::hht")]
+    pub hht: f64,
     /// Acceleration at t = 0: "equilibrium" or "rest". Default: "equilibrium".
     #[serde(default)]
     pub start: Start,
@@ -37,6 +40,24 @@ pub struct Newmark {
 impl Default for Newmark {
     fn default() -> Self {
         Newmark { alpha: 0.25, delta: 0.5 }
+    }
+}
+
+/// Newmark's parameters with the alpha of Hilber, Hughes and Taylor, 0 for Newmark's method itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Integrator {
+    pub newmark: Newmark,
+    pub hht: f64,
+}
+
+impl TimeStepping {
+    /// With hht = a: alpha = (1 - a)^2 / 4, delta = 1/2 - a, second order and unconditionally stable.
+    pub fn integrator(&self) -> Integrator {
+        let newmark = match self.hht {
+            0. => self.newmark,
+            a => Newmark { alpha: (1. - a).powi(2) / 4., delta: 0.5 - a },
+        };
+        Integrator { newmark, hht: self.hht }
     }
 }
 
