@@ -18,11 +18,13 @@ use vtkio::xml::Compressor;
 pub struct Frame {
     /// [s]
     pub time: f64,
-    /// per node [m], [m/s], [m/s^2]
+    /// per node [m], [m/s], [m/s^2]; displacement since the equilibrium under gravity
     pub displacement: Vec<[f64; 2]>,
     pub velocity: Vec<[f64; 2]>,
     pub acceleration: Vec<[f64; 2]>,
     pub joints: Vec<JointCell>,
+    /// what stresses come from, the part of gravity in it [m]
+    total_displacement: Vec<[f64; 2]>,
 }
 
 /// A joint element's mean over its points.
@@ -40,10 +42,13 @@ pub struct JointCell {
 }
 
 impl Frame {
-    pub fn of(model: &Model, system: &System, state: &State) -> Frame {
+    /// `origin`: the unknowns in equilibrium under gravity.
+    pub fn of(model: &Model, system: &System, state: &State, origin: &[f64]) -> Frame {
+        let moved: Vec<f64> = state.q.iter().zip(origin).map(|(q, o)| q - o).collect();
         Frame {
             time: state.time,
-            displacement: system.unknowns.at_nodes(&state.q),
+            displacement: system.unknowns.at_nodes(&moved),
+            total_displacement: system.unknowns.at_nodes(&state.q),
             velocity: system.unknowns.at_nodes(&state.v),
             acceleration: system.unknowns.at_nodes(&state.a),
             joints: joint_cells(&system.interface, model.joints.len(), system.jumps(&state.q), state),
@@ -152,7 +157,7 @@ impl Grid {
 
     /// Faces first, then interfaces; what only the other kind has is zero.
     fn cell_data(&self, frame: &Frame) -> Vec<Attribute> {
-        let faces = self.recovery.stresses(&frame.displacement);
+        let faces = self.recovery.stresses(&frame.total_displacement);
         let tensor = |name: &str, of: fn(&CellStress) -> [f64; 4]| {
             let on_lines = std::iter::repeat_n(0., 6 * frame.joints.len());
             let values: Vec<f64> = faces.iter().flat_map(|f| six(of(f))).chain(on_lines).collect();

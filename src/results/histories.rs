@@ -43,10 +43,13 @@ impl Histories {
         })
     }
 
-    pub fn record(&mut self, unknowns: &Unknowns, state: &State) {
+    /// `origin`: the unknowns that displacements are counted from.
+    pub fn record(&mut self, unknowns: &Unknowns, state: &State, origin: &[f64]) {
         self.waiting += &format!("{:e}", state.time);
         for (probe, peaks) in self.probes.iter().zip(&mut self.peaks) {
-            let motion = [&state.q, &state.v, &state.a].map(|x| unknowns.at_node(x, probe.node));
+            let mut motion = [&state.q, &state.v, &state.a].map(|x| unknowns.at_node(x, probe.node));
+            let at_origin = unknowns.at_node(origin, probe.node);
+            motion[0] = [motion[0][0] - at_origin[0], motion[0][1] - at_origin[1]];
             for (value, peak) in motion.as_flattened().iter().zip(peaks) {
                 self.waiting += &format!(",{value:e}");
                 if value.abs() > peak.value.abs() {

@@ -21,6 +21,8 @@ use std::time::Instant;
 pub struct Recorder<'a> {
     prepared: &'a Prepared,
     folder: Folder,
+    /// the unknowns in equilibrium under gravity, which displacements are counted from
+    origin: Vec<f64>,
     histories: Histories,
     series: Series,
     status: File,
@@ -42,7 +44,7 @@ pub enum Ending {
 
 impl<'a> Recorder<'a> {
     /// Opens the files and records the state at t = 0.
-    pub fn start(prepared: &'a Prepared, folder: Folder, state: &State) -> Result<Recorder<'a>> {
+    pub fn start(prepared: &'a Prepared, folder: Folder, state: &State, origin: Vec<f64>) -> Result<Recorder<'a>> {
         let path = folder.file("run.sta");
         let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
         let mut recorder = Recorder {
@@ -57,8 +59,9 @@ impl<'a> Recorder<'a> {
             started: Instant::now(),
             prepared,
             folder,
+            origin,
         };
-        recorder.histories.record(&prepared.system.unknowns, state);
+        recorder.histories.record(&prepared.system.unknowns, state, &recorder.origin);
         recorder.write_frame(state)?;
         Ok(recorder)
     }
@@ -77,7 +80,7 @@ impl<'a> Recorder<'a> {
             self.write_status(number, &state, &step);
             state = step.state;
         }
-        self.histories.record(&system.unknowns, &state);
+        self.histories.record(&system.unknowns, &state, &self.origin);
         let time = &self.prepared.model.time;
         if number.is_multiple_of(time.steps_per_frame) || number == time.steps {
             self.write_frame(&state)?;
@@ -87,7 +90,7 @@ impl<'a> Recorder<'a> {
 
     fn write_frame(&mut self, state: &State) -> Result<()> {
         self.flush()?;
-        self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state));
+        self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin));
         Ok(())
     }
 

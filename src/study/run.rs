@@ -73,7 +73,7 @@ pub fn command(request: &Request) -> Result<String> {
     screen.say(&format!("{} unknowns, {} joints", prepared.system.unknowns.count, prepared.model.joints.len()));
 
     let factoring = Instant::now();
-    let (state, mut march) = ready_to_march(&prepared)?;
+    let (state, origin, mut march) = ready_to_march(&prepared)?;
     let timing = Timing {
         mesh_s: meshed.took.as_secs_f64(),
         setup_s: prepared.setup.as_secs_f64(),
@@ -81,7 +81,8 @@ pub fn command(request: &Request) -> Result<String> {
         ..Timing::default()
     };
     let inputs = inputs(&case, &meshed.path, request.bonded)?;
-    let mut recorder = Recorder::start(&prepared, Folder::prepare(&request.folder(&case), &case.name())?, &state)?;
+    let folder = Folder::prepare(&request.folder(&case), &case.name())?;
+    let mut recorder = Recorder::start(&prepared, folder, &state, origin)?;
     let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
     let (mut summary, folder) = recorder.finish(ending, inputs, &case.title, timing)?;
     summary.timing.total_s = started.elapsed().as_secs_f64();
@@ -95,23 +96,25 @@ pub fn command(request: &Request) -> Result<String> {
     }
 }
 
-fn ready_to_march(prepared: &Prepared) -> Result<(State, March<'_>)> {
+/// The state at t = 0, the unknowns in equilibrium under gravity, and the march from there.
+fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
     let Prepared { model, system, symbolic, .. } = prepared;
     let not_definite = |e| prepared.not_definite(e);
-    let (scheme, state) = match model.analysis {
-        Analysis::Static => (Scheme::Static, State::at_rest(system)),
+    let (scheme, state, origin) = match model.analysis {
+        Analysis::Static => (Scheme::Static, State::at_rest(system), State::at_rest(system).q),
         Analysis::Dynamic => {
             let rest = start::under_gravity(system, symbolic, model.newton)
                 .map_err(not_definite)?
                 .map_err(|unsettled| no_rest(prepared, &unsettled))?;
             let Initial { displacement, velocity } = &model.initial;
+            let origin = rest.q.clone();
             let moving = start::with_motion(system, rest, displacement, velocity);
             let state = start::with_acceleration(system, symbolic, moving, model.start).map_err(not_definite)?;
-            (Scheme::Dynamic(model.integrator), state)
+            (Scheme::Dynamic(model.integrator), state, origin)
         }
     };
     let march = March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?;
-    Ok((state, march))
+    Ok((state, origin, march))
 }
 
 fn no_rest(prepared: &Prepared, unsettled: &Unsettled) -> Error {
