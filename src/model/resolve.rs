@@ -30,6 +30,8 @@ pub struct Model {
     pub laws: Vec<(JointLaw, Integration)>,
     /// for each node and axis
     pub fixed: Vec<[bool; 2]>,
+    /// viscous lines, each with the material behind it
+    pub dashpots: Vec<(Border, Material)>,
     pub loads: Vec<Load>,
     pub probes: Vec<NodeProbe>,
     pub damping: Option<Damping>,
@@ -116,6 +118,7 @@ impl Model {
         warnings.extend(unused_groups(case, &mesh));
         Ok(Model {
             fixed: supports(case, &mesh)?,
+            dashpots: dashpots(case, &mesh, &materials, &material_of)?,
             loads: loads(case, &mesh)?,
             probes: probes(case, &mesh, &mut warnings)?,
             pairs: opened.pairs,
@@ -263,11 +266,10 @@ fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
     let sides = solid_sides(mesh);
     let load = |(name, load): (&str, &case::Load)| {
         let group = |dimension| of_dimension(mesh, name, dimension, "load");
+        let lines = || Ok(border(mesh, group(1)?, &sides)?.into_iter().map(|(line, _)| line).collect());
         let target = match load {
-            case::Load::Pressure(_) => Target::Pressure { lines: border(mesh, group(1)?, &sides)? },
-            case::Load::Traction(d) => {
-                Target::Traction { lines: border(mesh, group(1)?, &sides)?, direction: d.direction }
-            }
+            case::Load::Pressure(_) => Target::Pressure { lines: lines()? },
+            case::Load::Traction(d) => Target::Traction { lines: lines()?, direction: d.direction },
             case::Load::BodyForce(d) => Target::BodyForce { cells: group(2)?.cells.clone(), direction: d.direction },
             case::Load::Force(d) => Target::Force { nodes: mesh.nodes_of(group(0)?), direction: d.direction },
         };
@@ -276,28 +278,52 @@ fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
     case.loads.iter().map(load).collect()
 }
 
-/// Every side of every face, running anticlockwise, by its corners; twice where two faces share it.
-type Sides = HashMap<(usize, usize), Vec<Vec<usize>>>;
+/// Every side of every face with that face, running anticlockwise, by its corners; twice where two faces share it.
+type Sides = HashMap<(usize, usize), Vec<(usize, Vec<usize>)>>;
 
 fn solid_sides(mesh: &Mesh) -> Sides {
     let mut sides = Sides::new();
-    for face in mesh.cells.iter().filter(|c| c.shape.dimension() == 2) {
+    for (cell, face) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
         for side in face.shape.sides() {
             let nodes: Vec<usize> = side.iter().map(|&local| face.nodes[local]).collect();
-            sides.entry((nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).or_default().push(nodes);
+            sides.entry((nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).or_default().push((cell, nodes));
         }
     }
     sides
 }
 
-/// The group's lines with the solid on their left; each must have a face on exactly one side.
-fn border(mesh: &Mesh, group: &Group, sides: &Sides) -> Result<Vec<Border>> {
+/// Viscous lines with the material behind them; a support there would hold what the dashpots should let move.
+fn dashpots(
+    case: &Case,
+    mesh: &Mesh,
+    materials: &[(String, Material)],
+    material_of: &[Option<usize>],
+) -> Result<Vec<(Border, Material)>> {
+    let sides = solid_sides(mesh);
+    let mut dashpots = Vec::new();
+    for name in case.boundaries.keys() {
+        if case.supports.contains_key(name) {
+            return Err(Error::input(format!(
+                "\"{name}\" stands in both boundaries and supports: a viscous curve cannot be held; take it out of one"
+            )));
+        }
+        let group = of_dimension(mesh, name, 1, "boundary")?;
+        for (line, face) in border(mesh, group, &sides)? {
+            let material = material_of[face].expect("every face has a material by now");
+            dashpots.push((line, materials[material].1));
+        }
+    }
+    Ok(dashpots)
+}
+
+/// The group's lines with the solid on their left, and that solid's face; each must have a face on exactly one side.
+fn border(mesh: &Mesh, group: &Group, sides: &Sides) -> Result<Vec<(Border, usize)>> {
     let oriented = |&cell: &usize| {
         let nodes = &mesh.cells[cell].nodes;
         match sides.get(&(nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).map(Vec::as_slice) {
-            Some([side]) => Ok(Border { shape: mesh.cells[cell].shape, nodes: side.clone() }),
+            Some([(face, side)]) => Ok((Border { shape: mesh.cells[cell].shape, nodes: side.clone() }, *face)),
             found => Err(Error::input(format!(
-                "load on \"{}\": its line at {} has {} on its sides; a loaded line lies on the border of the mesh",
+                "load or boundary \"{}\": its line at {} has {} on its sides; it must lie on the border of the mesh",
                 group.name,
                 place(mesh, cell),
                 if found.is_some() { "a surface on both" } else { "no surface" },
@@ -391,6 +417,7 @@ fn unused_groups(case: &Case, mesh: &Mesh) -> Option<String> {
             || case.interfaces.contains_key(name)
             || case.supports.contains_key(name)
             || case.initial.contains_key(name)
+            || case.boundaries.contains_key(name)
             || loaded.contains(name.as_str())
     };
     let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !is_used(&g.name));

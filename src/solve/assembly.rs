@@ -106,6 +106,46 @@ pub fn gravity(model: &Model, unknowns: &Unknowns) -> Vec<f64> {
     f
 }
 
+/// C of the viscous lines: integral of N' rho (c_p n n' + c_s s s') N ds, added on the pattern of `zeros` [N s/m].
+pub fn dashpots(model: &Model, unknowns: &Unknowns, zeros: CsMat<f64>) -> CsMat<f64> {
+    let mut c = zeros;
+    for (line, material) in &model.dashpots {
+        let impedances = [material.density * material.p_speed(), material.density * material.s_speed()];
+        for (a, &node_a) in line.nodes.iter().enumerate() {
+            for (b, &node_b) in line.nodes.iter().enumerate() {
+                let block = dashpot_block(&corners(model, &line.nodes), line.shape, impedances, a, b);
+                for (axis_a, axis_b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    for &(i, sign_i) in unknowns.row(node_a, axis_a) {
+                        for &(j, sign_j) in unknowns.row(node_b, axis_b) {
+                            let entry = c.get_mut(i, j).expect("nodes of a line share the face behind it");
+                            *entry += sign_i * sign_j * block[axis_a][axis_b];
+                        }
+                    }
+                }
+            }
+        }
+    }
+    c
+}
+
+/// Integral of N_a N_b (Z_p n n' + Z_s s s') ds over a line [N s/m].
+fn dashpot_block(at: &[[f64; 2]], shape: Shape, [z_p, z_s]: [f64; 2], a: usize, b: usize) -> [[f64; 2]; 2] {
+    let mut block = [[0.; 2]; 2];
+    for (r, weight) in element::gauss_3() {
+        let functions = shape.functions([r, 0.]);
+        let tangent = [0, 1].map(|i| at.iter().zip(&functions).map(|(x, f)| f.1[0] * x[i]).sum::<f64>());
+        let length = tangent[0].hypot(tangent[1]);
+        let (s, n) = (tangent.map(|t| t / length), [-tangent[1] / length, tangent[0] / length]);
+        let share = functions[a].0 * functions[b].0 * length * weight;
+        for i in 0..2 {
+            for j in 0..2 {
+                block[i][j] += share * (z_p * n[i] * n[j] + z_s * s[i] * s[j]);
+            }
+        }
+    }
+    block
+}
+
 fn corners(model: &Model, nodes: &[usize]) -> Vec<[f64; 2]> {
     nodes.iter().map(|&n| model.mesh.points[n]).collect()
 }

@@ -1,4 +1,4 @@
-//! The energy ledger: work of loads = kinetic + strain + joint-elastic + damping + friction + contact + residual.
+//! The energy ledger: work of loads = kinetic + strain + joint-elastic + damping + boundary + friction + contact + residual.
 //!
 //! For the average acceleration the equation of motion at both ends of a step gives, exactly,
 //! (R_n + R_n+1)'du/2 = change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints'
@@ -7,6 +7,7 @@
 //! The residual is round-off; with other Newmark parameters it is their numerical damping.
 
 use super::system::{State, System, product};
+use sprs::CsMat;
 
 /// Energies since the start, per metre of pipe [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
@@ -16,6 +17,8 @@ pub struct Energies {
     pub strain: f64,
     pub joint: f64,
     pub damping: f64,
+    /// what left through viscous boundaries
+    pub boundary: f64,
     pub friction: f64,
     pub contact: f64,
     pub residual: f64,
@@ -55,17 +58,21 @@ impl Ledger {
 
         let work = mean_dot(&self.load, &load, &du);
         let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
-        let damping = dt * dot(&mean_velocity, &product(&system.damping, &mean_velocity));
+        let drained = |c: &CsMat<f64>| dt * dot(&mean_velocity, &product(c, &mean_velocity));
+        let boundary = system.dashpots.as_ref().map_or(0., drained);
+        let damping = drained(&system.damping) - boundary;
         let friction = friction(system, old, new);
         let stored = stored(system, new);
         let mut now = Energies {
             work: self.now.work + work,
             damping: self.now.damping + damping,
+            boundary: self.now.boundary + boundary,
             friction: self.now.friction + friction,
             contact: self.now.contact + joint_work - (stored.joint - self.now.joint) - friction,
             ..stored
         };
-        now.residual = now.work - (now.kinetic + now.strain + now.joint + now.damping + now.friction + now.contact);
+        now.residual =
+            now.work - (now.kinetic + now.strain + now.joint + now.damping + now.boundary + now.friction + now.contact);
         Ledger {
             peak: self.peak.max(now.kinetic + now.strain + now.joint),
             worst: self.worst.max(now.residual.abs()),

@@ -17,8 +17,10 @@ pub struct System {
     pub stiffness: CsMat<f64>,
     /// [kg]
     pub mass: CsMat<f64>,
-    /// [N s/m]; zero until [`System::with_damping`]
+    /// [N s/m]; Rayleigh's, zero until [`System::with_damping`], and the dashpots
     pub damping: CsMat<f64>,
+    /// the part of C that lets waves out, if any [N s/m]
+    pub dashpots: Option<CsMat<f64>>,
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
     pub interface: Interface,
@@ -56,8 +58,10 @@ impl System {
         let interface =
             Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump);
         let loads = model.loads.iter().map(|load| (assembly::load(model, &unknowns, load), load.pulse.clone()));
+        let dashpots = (!model.dashpots.is_empty()).then(|| assembly::dashpots(model, &unknowns, scaled(&mass, 0.)));
         Ok(System {
-            damping: scaled(&mass, 0.),
+            damping: dashpots.clone().unwrap_or_else(|| scaled(&mass, 0.)),
+            dashpots,
             joint_beta: None,
             gravity: assembly::gravity(model, &unknowns),
             loads: loads.collect(),
@@ -68,10 +72,11 @@ impl System {
         })
     }
 
-    /// C = alpha M + beta K of the bodies; with `joints` beta also damps the closed joints, as the paper's C(U).
+    /// C = alpha M + beta K of the bodies and the dashpots; with `joints` beta also damps the closed joints, as the
+    /// paper's C(U).
     pub fn with_damping(self, Rayleigh { alpha, beta }: Rayleigh, joints: bool) -> System {
         System {
-            damping: combine(&[(alpha, &self.mass), (beta, &self.stiffness)]),
+            damping: combine(&[(alpha, &self.mass), (beta, &self.stiffness), (1., &self.damping)]),
             joint_beta: joints.then_some(beta),
             ..self
         }

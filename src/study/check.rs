@@ -79,6 +79,9 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
         let names: Vec<&str> = axes.iter().map(|a| ["x", "y"][a.index()]).collect();
         roles.push(format!("support: u_{} = 0", names.join(" = u_")));
     }
+    if case.boundaries.contains_key(&group.name) {
+        roles.push("viscous boundary".into());
+    }
     for (_, load) in case.loads.iter().filter(|(name, _)| *name == group.name) {
         let kind = match load {
             Load::Pressure(_) => "pressure",

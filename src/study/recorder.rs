@@ -109,7 +109,7 @@ impl<'a> Recorder<'a> {
         let _ = writeln!(
             self.status_lines,
             "{number:7} {:12.5e} {:9.2e} {:4} {:9.2e} {open:5} {slipping:5} {:11.4e} {:11.4e} {:11.4e} {:11.4e} \
-             {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
+             {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
             step.state.time,
             step.state.time - old.time,
             step.iterations,
@@ -119,6 +119,7 @@ impl<'a> Recorder<'a> {
             e.strain,
             e.joint,
             e.damping,
+            e.boundary,
             e.friction,
             e.contact,
             e.residual,
@@ -162,7 +163,7 @@ impl<'a> Recorder<'a> {
 }
 
 const STATUS_HEADER: &str = "#  step       t [s]    dt [s] iter  eq.(19)   open  slip   work [J/m]     kinetic      strain       \
-                             joint     damping    friction     contact    residual left [s]\n";
+                             joint     damping    boundary    friction     contact    residual left [s]\n";
 
 fn probe_places(prepared: &Prepared) -> Vec<ProbePlace> {
     let place = |p: &crate::model::resolve::NodeProbe| {

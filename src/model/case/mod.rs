@@ -59,6 +59,9 @@ pub struct Case {
     /// Directions in which a curve or point group is held. Default: none.
     #[serde(default)]
     pub supports: BTreeMap<String, Vec<Axis>>,
+    /// Absorbing boundaries by curve group: "viscous" lets plane P and S waves out at normal incidence. Default: none.
+    #[serde(default)]
+    pub boundaries: BTreeMap<String, Boundary>,
     /// Loads by group; an object, or a list of objects that add up. Default: none.
     #[serde(default)]
     pub loads: Loads,
@@ -153,6 +156,14 @@ pub enum Analysis {
     #[default]
     Dynamic,
     Static,
+}
+
+/// What a curve does with the waves that reach it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Boundary {
+    /// dashpots of the impedances rho c_p and rho c_s of the ground behind the curve (Lysmer and Kuhlemeyer 1969)
+    Viscous,
 }
 
 /// Motion of a group's nodes at t = 0.
