@@ -257,15 +257,18 @@ fn every_impossible_value_is_a_sentence_with_file_path_value_and_range() {
 #[test]
 fn an_unknown_key_is_named_with_its_neighbours_and_the_nearest() {
     for (set, words) in [
-        ("tim=1", "there is no key \"tim\" (did you mean \"time\"?); the keys are: title, geometry, materials"),
+        (
+            "tim=1",
+            "there is no key \"tim\" (did you mean \"time\"?); the keys are: title, analysis, geometry, materials",
+        ),
         (
             "materials.layer_1.yuong=1",
             "there is no key \"yuong\" (did you mean \"young\"?); the keys are: young, poisson, density, friction",
         ),
-        ("time.zebra=1", "there is no key \"zebra\"; the keys are: step, end, newmark, start"),
+        ("time.zebra=1", "there is no key \"zebra\"; the keys are: step, end, newmark, hht, start"),
         ("damping.rato=1", "did you mean \"ratio\"?"),
         ("geometry.parameter=1", "did you mean \"parameters\"?"),
-        ("gravity=9.81", "there is no key \"gravity\""),
+        ("gravty=9.81", "did you mean \"gravity\"?"),
     ] {
         let sentence = sentence(set);
         let parent = set.rsplit_once('.').map_or("", |(parent, _)| parent.split('=').next().unwrap());

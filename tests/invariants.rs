@@ -1,0 +1,132 @@
+//! What must hold of the whole program whatever the numbers: scaling, mirror symmetry, energy, silence, frequencies,
+//! and joints that become glue.
+
+mod support;
+
+use coralpipe::model::case::Newton;
+use coralpipe::model::mesh::Mesh;
+use coralpipe::model::resolve::Model;
+use coralpipe::physics::joint::{Friction, JointLaw, Status};
+use coralpipe::solve::system::System;
+use serde_json::{Value, json};
+use std::sync::OnceLock;
+use support::{Run, peak, root, run_twin_pipes};
+
+/// The default case, run once for all tests.
+fn default_run() -> &'static Run {
+    static RUN: OnceLock<Run> = OnceLock::new();
+    RUN.get_or_init(|| run_twin_pipes(&[]))
+}
+
+/// Linear solids, no gap, no cohesion, no prestress: U(lambda p) = lambda U(p), opening and slip included.
+#[test]
+fn displacements_scale_with_the_pressure() {
+    let one = default_run();
+    let scaled = run_twin_pipes(&["--set", "loads.surface.pressure.peak=\"730 kPa\""]);
+    assert!(one.number("/contact/max_open") > 1e-5 && one.number("/contact/max_slip") > 1e-5);
+    let (mut worst, largest) = (0_f64, 7.3 * one.peak());
+    for (name, values) in one.displacements() {
+        for (a, b) in values.iter().zip(&scaled.histories[name]) {
+            worst = worst.max((7.3 * a - b).abs() / largest);
+        }
+    }
+    println!("homogeneity: {worst:.1e}");
+    assert!(worst < 1e-8, "{worst:.1e} of the peak");
+}
+
+/// The mesh is its own mirror image: the left pipe's points move as those of the right one.
+#[test]
+fn twin_pipes_move_as_mirror_images() {
+    let run = default_run();
+    let mut worst: f64 = 0.;
+    for (left, right) in [("H", "I"), ("K", "L")] {
+        for (axis, sign) in [("ux", -1.), ("uy", 1.)] {
+            let [a, b] = [left, right].map(|point| &run.histories[&format!("{point}.{axis}")]);
+            worst = a.iter().zip(b).map(|(a, b)| (a - sign * b).abs()).fold(worst, f64::max);
+        }
+    }
+    let worst = worst / run.peak();
+    println!("mirror symmetry: {worst:.1e}");
+    assert!(worst < 1e-6, "{worst:.1e} of the peak");
+}
+
+/// Computed independently for this geometry on other meshes: 10.15 Hz, 10.89 Hz, and two more near to the second.
+#[test]
+fn the_twin_pipes_have_their_first_frequencies() {
+    let run = default_run();
+    let f: Vec<f64> = (0..4).map(|i| run.number(&format!("/frequencies_hz/{i}"))).collect();
+    println!("frequencies: {f:?}");
+    assert!((f[0] / 10.15 - 1.).abs() < 0.02 && (f[1] / 10.89 - 1.).abs() < 0.02, "{f:?}");
+    assert!((f[2] / f[1] - 1.).abs() < 0.02 && f[3] > f[2], "{f:?}");
+}
+
+/// Work of the pressure = kinetic + strain + joints + damping + friction, to round-off of the sums.
+#[test]
+fn the_energy_ledger_closes_over_the_default_run() {
+    let run = default_run();
+    let error = run.number("/energy/max_relative_error");
+    println!("energy: {error:.1e} of the peak, friction {:.3} J/m", run.number("/energy/last/friction"));
+    assert!(error < 1e-6, "{error:.1e}");
+    assert!(run.number("/energy/last/friction") > 0. && run.number("/energy/last/damping") > 0.);
+}
+
+#[test]
+fn nothing_moves_without_a_load() {
+    let run = run_twin_pipes(&["--set", "loads.surface.pressure.peak=0", "--set", "time.end=\"10 ms\""]);
+    assert!(run.histories["A.uy"].len() == 101 && run.peak() < 1e-12, "{:.1e} m", run.peak());
+}
+
+/// The small ground with one pipe, pressed so slowly that waves have left it in a step: no joint is ever pulled.
+fn slowly_pressed(bonded: bool) -> Model {
+    let material = |young: f64, poisson: f64, density: f64| json!({ "young": young, "poisson": poisson, "density": density, "friction": 0.3 });
+    let json: Value = json!({
+        "materials": { "layer_1": material(183e6, 0.46, 2200.), "layer_2": material(519e6, 0.38, 2600.),
+                       "layer_3": material(863e6, 0.27, 2700.), "pipe_left": material(210e9, 0.3, 7800.) },
+        "interfaces": { "interface_left": { "body": "pipe_left" } },
+        "supports": { "base": ["x", "y"], "side_left": ["x"], "side_right": ["x"] },
+        "loads": { "surface": { "pressure": { "law": "table", "times": [0, 0.1], "values": [0, 1e5] } } },
+        "time": { "step": 5e-3, "end": 0.15 },
+    });
+    let mesh = Mesh::read(&root().join("tests/meshes/one_ring.msh")).unwrap();
+    Model::new(&support::case(&json), &mesh, bonded).unwrap()
+}
+
+/// Displacements of the ground's and pipe's original nodes at every step.
+fn motion(model: &Model, nodes: usize) -> Vec<f64> {
+    let system = System::new(model).unwrap();
+    let mut all = Vec::new();
+    support::march(model, &system, |state| {
+        all.extend(system.unknowns.at_nodes(&state.q)[..nodes].concat());
+        let pressed = state.time == 0. || state.joints.iter().all(|j| j.status == Status::Stick);
+        assert!(pressed, "a joint opens or slips at t = {} s", state.time);
+    });
+    all
+}
+
+/// kappa -> infinity, friction without limit, nothing pulled: the merged mesh, the difference falling as 1/kappa.
+#[test]
+fn joints_of_growing_stiffness_become_glue() {
+    let bonded = slowly_pressed(true);
+    let nodes = bonded.mesh.points.len();
+    let glued = motion(&bonded, nodes);
+    let difference = |factor: f64| {
+        let mut model = slowly_pressed(false);
+        model.newton = Newton { tolerance: 1e-12, ..model.newton };
+        for (law, _) in &mut model.laws {
+            *law = JointLaw {
+                normal_stiffness: factor * law.normal_stiffness,
+                tangential_stiffness: factor * law.tangential_stiffness,
+                friction: Friction::Coulomb(1e9),
+                ..*law
+            };
+        }
+        let joined = motion(&model, nodes);
+        joined.iter().zip(&glued).map(|(a, b)| (a - b).abs()).fold(0., f64::max) / peak(&glued)
+    };
+    let differences = [1., 10., 100., 1000.].map(difference);
+    println!("kappa x 1, 10, 100, 1000: {differences:?}");
+    for pair in differences[1..].windows(2) {
+        assert!((pair[0] / pair[1] - 10.).abs() < 0.5, "not of first order in 1/kappa: {differences:?}");
+    }
+    assert!(differences[3] < 1e-5, "{differences:?}");
+}

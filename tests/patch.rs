@@ -1,0 +1,223 @@
+//! Patch tests: a uniform stress is met exactly by the assembled elements, and by a joint between two blocks.
+
+mod support;
+
+use coralpipe::model::mesh::{Mesh, Shape};
+use coralpipe::model::resolve::Model;
+use coralpipe::physics::joint::Status;
+use coralpipe::results::stress::Recovery;
+use coralpipe::solve::assembly;
+use coralpipe::solve::contact::{Contact, Problem};
+use coralpipe::solve::interface::JointState;
+use coralpipe::solve::system::System;
+use nalgebra::{DMatrix, DVector, Matrix2, Rotation2, Vector2};
+use serde_json::json;
+use support::{Drawing, dense};
+
+const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Quad4, Shape::Tri6, Shape::Quad8];
+
+/// MacNeal and Harder, "A proposed standard set of problems to test finite element accuracy" (1985): the plate of
+/// five quadrilaterals, those cut in two for triangles.
+fn macneal_harder(shape: Shape) -> Mesh {
+    let mut drawing = Drawing::default();
+    for at in [[0., 0.], [0.24, 0.], [0.24, 0.12], [0., 0.12], [0.04, 0.02], [0.18, 0.03], [0.16, 0.08], [0.08, 0.08]] {
+        drawing.node(at);
+    }
+    for [a, b, c, d] in [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]] {
+        match shape.corner_count() {
+            3 => [[a, b, c], [a, c, d]].iter().for_each(|corners| add_face(&mut drawing, "plate", shape, corners)),
+            _ => add_face(&mut drawing, "plate", shape, &[a, b, c, d]),
+        }
+    }
+    drawing.mesh()
+}
+
+fn add_face(drawing: &mut Drawing, group: &str, shape: Shape, corners: &[usize]) {
+    let mut nodes = corners.to_vec();
+    if shape.node_count() > corners.len() {
+        let n = corners.len();
+        nodes.extend((0..n).map(|i| middle(drawing, corners[i], corners[(i + 1) % n])));
+    }
+    drawing.cell(group, shape, &nodes);
+}
+
+/// The node half-way between two others: the one that is there, or a new one.
+fn middle(drawing: &mut Drawing, a: usize, b: usize) -> usize {
+    let (p, q) = (drawing.at(a), drawing.at(b));
+    let at = [(p[0] + q[0]) / 2., (p[1] + q[1]) / 2.];
+    let known = (0..drawing.len()).find(|&n| (drawing.at(n)[0] - at[0]).hypot(drawing.at(n)[1] - at[1]) < 1e-12);
+    known.unwrap_or_else(|| drawing.node(at))
+}
+
+/// MacNeal-Harder: u = 1e-3 (x + y/2), v = 1e-3 (y + x/2) on the edge; E = 1e6, nu = 0.25. In plane strain
+/// s_xx = s_yy = E / (1 + nu)(1 - 2 nu) 1e-3 = 1600, s_xy = G 1e-3 = 400.
+#[test]
+fn a_uniform_strain_on_the_edge_is_uniform_inside() {
+    for shape in SHAPES {
+        let mesh = macneal_harder(shape);
+        let json = json!({ "materials": { "plate": { "young": 1e6, "poisson": 0.25, "density": 1 } },
+                           "time": { "step": 1, "end": 1 } });
+        let model = support::model(&json, &mesh);
+        let system = System::new(&model).unwrap();
+        let exact = |[x, y]: [f64; 2]| [1e-3 * (x + y / 2.), 1e-3 * (y + x / 2.)];
+        let on_edge = |[x, y]: [f64; 2]| x == 0. || x == 0.24 || y == 0. || y == 0.12;
+
+        let (mut inner, mut q) = (Vec::new(), vec![0.; system.unknowns.count]);
+        for (node, &at) in model.mesh.points.iter().enumerate() {
+            for (axis, value) in exact(at).into_iter().enumerate() {
+                let &[(unknown, 1.)] = system.unknowns.row(node, axis) else { panic!("nothing is held or joined") };
+                if on_edge(at) { q[unknown] = value } else { inner.push(unknown) }
+            }
+        }
+        let k = dense(&system.stiffness);
+        let force = &k * DVector::from_column_slice(&q);
+        let k_inner = DMatrix::from_fn(inner.len(), inner.len(), |i, j| k[(inner[i], inner[j])]);
+        let u_inner = k_inner.lu().solve(&DVector::from_fn(inner.len(), |i, _| -force[inner[i]])).unwrap();
+        inner.iter().zip(&u_inner).for_each(|(&i, &u)| q[i] = u);
+
+        let displacements = system.unknowns.at_nodes(&q);
+        let error = displacements.iter().zip(&model.mesh.points).flat_map(|(u, &at)| {
+            let exact = exact(at);
+            [(u[0] - exact[0]).abs(), (u[1] - exact[1]).abs()]
+        });
+        let error = error.fold(0., f64::max) / 3e-4;
+        println!("{shape:?}: displacement {error:.1e}");
+        assert!(error < 1e-9, "{shape:?}: displacement {error:.1e}");
+        for cell in Recovery::new(&model).stresses(&displacements) {
+            for (s, exact) in cell.stress.into_iter().zip([1600., 1600., 800., 400.]) {
+                assert!((s / exact - 1.).abs() < 1e-9, "{shape:?}: {s} for {exact}");
+            }
+        }
+    }
+}
+
+/// Widths of the columns of both blocks: the joint's elements have these lengths [m].
+const WIDTHS: [f64; 5] = [0.1, 0.35, 0.05, 0.3, 0.2];
+
+/// A square of side 1 m with a straight joint through its middle, turned by `angle`; inner nodes off the grid.
+fn two_blocks(shape: Shape, angle: f64) -> Mesh {
+    let turn = Rotation2::new(angle);
+    let mut drawing = Drawing::default();
+    let xs: Vec<f64> = (0..=5).map(|i| WIDTHS[..i].iter().sum()).collect();
+    for (row, y) in [-0.5, -0.2, 0., 0.3, 0.5].into_iter().enumerate() {
+        for (column, &x) in xs.iter().enumerate() {
+            let inside = row % 2 == 1 && (1..5).contains(&column);
+            let off = if inside { 0.02 * (column as f64 + 1.).sin() } else { 0. };
+            let p = turn * Vector2::new(x + off, y - 2. * off);
+            drawing.node([p.x, p.y]);
+        }
+    }
+    let corner = |row: usize, column: usize| 6 * row + column;
+    for row in 0..4 {
+        let group = if row < 2 { "below" } else { "above" };
+        for column in 0..5 {
+            let (a, b) = (corner(row, column), corner(row, column + 1));
+            let (c, d) = (corner(row + 1, column + 1), corner(row + 1, column));
+            match shape.corner_count() {
+                3 => [[a, b, c], [a, c, d]].iter().for_each(|face| add_face(&mut drawing, group, shape, face)),
+                _ => add_face(&mut drawing, group, shape, &[a, b, c, d]),
+            }
+        }
+    }
+    for column in 0..5 {
+        for (group, row) in [("bottom", 0), ("joint", 2), ("top", 4)] {
+            add_line(&mut drawing, group, shape, corner(row, column), corner(row, column + 1));
+        }
+    }
+    for row in 0..4 {
+        for (group, column) in [("left", 0), ("right", 5)] {
+            add_line(&mut drawing, group, shape, corner(row, column), corner(row + 1, column));
+        }
+    }
+    drawing.cell("pin", Shape::Point, &[corner(0, 0)]);
+    drawing.cell("roller", Shape::Point, &[corner(0, 5)]);
+    drawing.mesh()
+}
+
+fn add_line(drawing: &mut Drawing, group: &str, shape: Shape, a: usize, b: usize) {
+    if shape.node_count() > shape.corner_count() {
+        let mid = middle(drawing, a, b);
+        drawing.cell(group, Shape::Line3, &[a, b, mid]);
+    } else {
+        drawing.cell(group, Shape::Line2, &[a, b]);
+    }
+}
+
+/// The pressed square, of one material, or its halves would strain differently along the joint. Traction
+/// sigma n on each side, three supports against rigid motion, which then carry nothing.
+fn pressed(shape: Shape, angle: f64, integration: &str, sigma: &Matrix2<f64>) -> Model {
+    let traction = |normal: [f64; 2]| {
+        let t = sigma * (Rotation2::new(angle) * Vector2::from(normal));
+        json!({ "traction": { "law": "step", "peak": t.norm(), "direction": [t.x, t.y] } })
+    };
+    let across = if angle.cos().abs() > 0.5 { "y" } else { "x" };
+    let json = json!({
+        "materials": { "below": { "young": 5e7, "poisson": 0.3, "density": 1, "friction": 5 },
+                       "above": { "young": 5e7, "poisson": 0.3, "density": 1 } },
+        "interfaces": { "joint": { "body": "above", "normal_stiffness": 3e9, "tangential_stiffness": 1e9,
+                                   "integration": integration } },
+        "supports": { "pin": ["x", "y"], "roller": [across] },
+        "loads": { "bottom": traction([0., -1.]), "top": traction([0., 1.]),
+                   "left": traction([-1., 0.]), "right": traction([1., 0.]) },
+        "time": { "step": 1, "end": 1 },
+    });
+    support::model(&json, &two_blocks(shape, angle))
+}
+
+/// The jumps under the model's loads at rest: K condensed to the jumps, then the program's contact solver.
+fn static_jumps(model: &Model, system: &System) -> (Vec<f64>, Vec<JointState>) {
+    let (n, first) = (system.unknowns.count, system.unknowns.first_jump);
+    let k = dense(&system.stiffness);
+    let load = model.loads.iter().fold(vec![0.; n], |sum, load| {
+        let f = assembly::load(model, &system.unknowns, load);
+        sum.iter().zip(&f).map(|(s, f)| s + f * load.pulse.at(0.)).collect()
+    });
+    let load = DVector::from_vec(load);
+    let coupling = k.view((0, first), (first, n - first)).into_owned();
+    let inner = k.view((0, 0), (first, first)).into_owned().cholesky().expect("the ground is held");
+    let schur = k.view((first, first), (n - first, n - first)) - coupling.transpose() * inner.solve(&coupling);
+    let b = load.rows(first, n - first) - coupling.transpose() * inner.solve(&load.rows(0, first).into_owned());
+
+    let schur = faer::Mat::from_fn(n - first, n - first, |i, j| (schur[(i, j)] + schur[(j, i)]) / 2.);
+    let old = vec![JointState::default(); system.interface.points.len()];
+    let problem = Problem { interface: &system.interface, right_hand_side: b.as_slice(), old: &old, damping: None };
+    let solution = Contact::new(schur, model.newton).solve(&problem, &vec![0.; n - first]).unwrap();
+    (solution.jumps, solution.responses.iter().map(JointState::from).collect())
+}
+
+/// Uniform stress: traction sigma n all along, jump g_n = s_n / kappa_n, g_t = tau / kappa_s, whatever the direction of
+/// the joint and the lengths of its elements. Also the one middle point of the paper meets it on linear elements;
+/// on quadratic ones it ignores the corners' jumps and is left out.
+#[test]
+fn an_inclined_joint_carries_a_uniform_stress_exactly() {
+    let sigma = Matrix2::new(-3e5, 4e4, 4e4, -2e5);
+    let mut cases: Vec<(Shape, &str)> = SHAPES.iter().map(|&s| (s, "lobatto")).collect();
+    cases.extend([(Shape::Tri3, "gauss_1"), (Shape::Quad4, "gauss_1")]);
+    for (shape, integration) in cases {
+        let mut worst: f64 = 0.;
+        for degrees in [0_f64, 17., 45., 90., 133., -68., 180.] {
+            let angle = degrees.to_radians();
+            let model = pressed(shape, angle, integration, &sigma);
+            let system = System::new(&model).unwrap();
+            let (jumps, joints) = static_jumps(&model, &system);
+            // the body lies above: the normal into the ground points down in the square's own frame
+            let normal = Rotation2::new(angle) * Vector2::new(0., -1.);
+            let tangent = Vector2::new(-normal.y, normal.x);
+            let (tau, pressed) = (tangent.dot(&(sigma * normal)), normal.dot(&(sigma * normal)));
+            let jump = tangent * (tau / 1e9) + normal * (pressed / 3e9);
+            for (pair, unknowns) in system.unknowns.jumps.iter().enumerate() {
+                let found = Vector2::from(unknowns.map(|u| jumps[u.unwrap() - system.unknowns.first_jump]));
+                let error = (found - jump).norm() / jump.norm();
+                worst = worst.max(error);
+                assert!(error < 1e-9, "{shape:?} {integration} {degrees} degrees, pair {pair}: {error:.1e}");
+            }
+            for joint in &joints {
+                let error = (joint.traction - Vector2::new(tau, pressed)).norm() / pressed.abs();
+                worst = worst.max(error);
+                assert!(error < 1e-9, "{shape:?} {integration} {degrees} degrees: traction {error:.1e}");
+                assert_eq!(joint.status, Status::Stick);
+            }
+        }
+        println!("{shape:?} {integration}: {worst:.1e}");
+    }
+}
