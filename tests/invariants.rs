@@ -60,6 +60,16 @@ fn the_twin_pipes_have_their_first_frequencies() {
     assert!((f[2] / f[1] - 1.).abs() < 0.02 && f[3] > f[2], "{f:?}");
 }
 
+/// The consistent tangent of a piecewise linear law: one iteration a step while nothing changes, few when it does. Without
+/// the coupling of shear to pressure it takes more.
+#[test]
+fn newton_takes_fewer_than_two_iterations_a_step() {
+    let run = default_run();
+    let iterations = run.number("/iterations") / run.number("/steps");
+    println!("iterations a step: {iterations}");
+    assert!(iterations < 2. && run.number("/contact/cut_steps") == 0., "{iterations}");
+}
+
 /// Work of the pressure = kinetic + strain + joints + damping + friction, to round-off of the sums.
 #[test]
 fn the_energy_ledger_closes_over_the_default_run() {

@@ -113,7 +113,7 @@ impl Model {
         let laws = opened
             .joints
             .iter()
-            .map(|joint| joint_law(case, &seams[joint.seam], &materials[ground(joint, &material_of)]))
+            .map(|joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]))
             .collect::<Result<_>>()?;
         warnings.extend(unused_groups(case, &mesh));
         Ok(Model {
@@ -215,8 +215,20 @@ fn seams(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Vec<Seam> {
 }
 
 /// The layer's stiffness and friction, unless the interface names its own.
-fn joint_law(case: &Case, seam: &Seam, (ground, material): &(String, Material)) -> Result<(JointLaw, Integration)> {
+fn joint_law(
+    case: &Case,
+    joint: &Joint,
+    seam: &Seam,
+    (ground, material): &(String, Material),
+) -> Result<(JointLaw, Integration)> {
     let interface = &case.interfaces[&seam.curve];
+    if joint.shape == Shape::Line3 && interface.integration == Integration::Gauss1 {
+        return Err(Error::input(format!(
+            "interfaces.{}.integration: one point in the middle does not see the ends of 6-node joints; use \"lobatto\" with \
+             second-order meshes",
+            seam.curve
+        )));
+    }
     let friction = interface.friction.or(case.materials[ground].friction).ok_or_else(|| {
         Error::input(format!(
             "interface \"{}\" runs through \"{ground}\", which has no friction: write materials.{ground}.friction or \

@@ -67,7 +67,11 @@ impl Contact {
 
     /// Newton with the statuses inside the loop; where they run in a circle, the fixed point on Tresca's bound.
     pub fn solve(&mut self, problem: &Problem, guess: &[f64]) -> Result<Solution, Unsettled> {
-        self.newton(problem, guess).or_else(|unsettled| self.fixed_point(problem, guess, unsettled))
+        self.newton(problem, guess).or_else(|unsettled| {
+            let near = self.fixed_point(problem, guess, unsettled)?;
+            // From so near Newton ends at round-off, unless it circles again.
+            Ok(self.newton(problem, &near.jumps).unwrap_or(near))
+        })
     }
 
     fn newton(&mut self, problem: &Problem, guess: &[f64]) -> Result<Solution, Unsettled> {
