@@ -92,7 +92,7 @@ fn without_convergence_the_joints_are_named_and_what_was_computed_stands() {
     let Outcome { code, stdout, stderr } = failing_run(&bench);
     assert_eq!((code, stdout.as_str()), (Some(3), ""), "{stderr}");
     let sentence = stderr.lines().last().unwrap();
-    for words in ["no convergence in step 5 after t = 0.02", "interface at (", ".0000) m", "is in output/block"] {
+    for words in ["no convergence in step ", " after t = 0.02", "interface at (", "is in output/block"] {
         assert!(sentence.contains(words), "{words}: {sentence}");
     }
     assert!(!sentence.contains("previous"), "{sentence}");
@@ -104,26 +104,32 @@ fn without_convergence_the_joints_are_named_and_what_was_computed_stands() {
 
     let folder = bench.path("output/block");
     assert_eq!(summary(&folder).unwrap()["status"], "no_convergence");
-    assert_eq!(summary(&folder).unwrap()["steps"], 4);
-    assert_eq!(frames_of_valid_series(&folder, "block"), 5);
-    assert_eq!(rows_of_valid_histories(&folder.join("histories.csv")), 5);
+    // a frame and a row for t = 0 and for each step before the one that failed
+    let step: usize = sentence.split_once("in step ").unwrap().1.split(' ').next().unwrap().parse().unwrap();
+    assert!(step >= 5, "nothing moves in the first four: {sentence}");
+    assert_eq!(frames_of_valid_series(&folder, "block"), step);
+    assert_eq!(rows_of_valid_histories(&folder.join("histories.csv")), step);
 }
 
+/// A pressure near the largest number there is, on a ground of next to no mass: a = p/m is beyond it.
 #[test]
-fn numbers_beyond_floating_point_are_no_convergence_and_not_written() {
+fn numbers_beyond_floating_point_end_the_run_and_are_not_written() {
     let bench = Bench::new("overflow");
-    for more in ["--quiet", "--bonded"] {
-        let outcome = bench.run_line(&format!(
-            "run block.json --set materials.ground.density=1e-200 --set materials.body.density=1e-200 --set \
-             damping=null --set time.start=rest --set loads.top.pressure.peak=1e308 {more}"
-        ));
-        assert_eq!(outcome.code, Some(3), "{}", outcome.stderr);
-        assert!(outcome.stderr.contains("too large for a computer"), "{}", outcome.stderr);
-        rows_of_valid_histories(&bench.path("output/block/histories.csv"));
+    let blow = "run block.json --set materials.ground.density=0.001 --set loads.top.pressure.peak=1.7e308 --set \
+                time.step=1e-6 --set time.end=1e-5 --set output.every=1e-6";
+    let at_once = bench.run_line(blow);
+    assert_eq!(at_once.code, Some(1), "{}", at_once.stderr);
+    assert!(at_once.stderr.contains("t = 0") && at_once.stderr.contains("too large"), "{}", at_once.stderr);
+    assert!(!bench.path("output").exists());
+    for more in ["", "--bonded"] {
+        let in_a_step = bench.run_line(&format!("{blow} --set time.start=rest {more}"));
+        assert_eq!(in_a_step.code, Some(3), "{more}: {}", in_a_step.stderr);
+        assert!(in_a_step.stderr.contains("too large for a computer"), "{more}: {}", in_a_step.stderr);
+        assert_eq!(rows_of_valid_histories(&bench.path("output/block/histories.csv")), 1);
     }
-    let outcome = bench.run_line("run block.json --set newton.tolerance=1e-300");
-    assert_eq!(outcome.code, Some(3), "{}", outcome.stderr);
-    assert!(outcome.stderr.contains("newton.tolerance = 1e-300") || outcome.stderr.contains("interface at ("));
+    let too_exact = bench.run_line("run block.json --set newton.tolerance=1e-300");
+    assert_eq!(too_exact.code, Some(3), "{}", too_exact.stderr);
+    assert!(too_exact.stderr.contains("newton.tolerance = 1e-300"), "{}", too_exact.stderr);
 }
 
 #[test]
@@ -146,7 +152,7 @@ fn finished_results_survive_runs_that_fail_and_end_with_one_that_is_done() {
         assert_eq!(outcome.code, Some(3), "{}", outcome.stderr);
         assert!(outcome.stderr.contains("output/block/previous"), "{}", outcome.stderr);
         assert_done(&previous, 11, 20);
-        assert_eq!(frames_of_valid_series(&folder, "block"), 5);
+        assert!(frames_of_valid_series(&folder, "block") >= 5);
     }
     assert_eq!(bench.run_line("run block.json --set time.end=5ms").code, Some(0));
     assert_done(&folder, 6, 10);
@@ -255,7 +261,8 @@ fn interrupted_a_run_ends_with_130_and_valid_files() {
         bench.program(&["run", "block.json", "--set", "time.end=1000 s", "--set", "output.every=50 ms", "--quiet"]);
     let child = program.stdout(Stdio::null()).stderr(fs::File::create(&stderr).unwrap()).spawn().unwrap();
     let start = Instant::now();
-    while !folder.join("frames/block_00002.vtu").exists() {
+    // the results of the run before have gone, and new ones come
+    while !folder.join("previous").exists() || !folder.join("frames/block_00002.vtu").exists() {
         assert!(start.elapsed() < Duration::from_secs(30));
         std::thread::sleep(Duration::from_millis(1));
     }
