@@ -132,7 +132,7 @@ impl Model {
             integrator: case.time.integrator(),
             newton: case.newton,
             start: case.time.start,
-            time: time_grid(case, &mut warnings),
+            time: time_grid(case, &mut warnings)?,
             materials,
             material_of,
             seams,
@@ -404,9 +404,19 @@ fn nearest_node(
     Ok(node)
 }
 
+/// More steps than any machine has time for.
+const MOST_STEPS: f64 = 1e9;
+
 /// Whole steps to the end and to each frame.
-fn time_grid(case: &Case, warnings: &mut Vec<String>) -> TimeGrid {
+fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
     let step = case.time.step.0;
+    if case.time.end.0 / step > MOST_STEPS {
+        return Err(Error::input(format!(
+            "time.end = {:e} s is {:e} steps of time.step = {step:e} s; at most {MOST_STEPS:e} can be computed",
+            case.time.end.0,
+            case.time.end.0 / step
+        )));
+    }
     let whole = |what: &str, span: f64, warnings: &mut Vec<String>| {
         let count = (span / step).round().max(1.);
         if (count * step / span - 1.).abs() > 1e-9 {
@@ -414,11 +424,11 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> TimeGrid {
         }
         count as usize
     };
-    TimeGrid {
+    Ok(TimeGrid {
         step,
         steps: whole("time.end", case.time.end.0, warnings),
         steps_per_frame: whole("output.every", case.frame_interval(), warnings),
-    }
+    })
 }
 
 /// Groups of curves and surfaces that the case does not mention.

@@ -3,7 +3,7 @@
 //! The ground keeps its nodes. Both node rows of each joint are known exactly, mid-side nodes too, and each joint knows
 //! its own two elements, since a pipe may cross a layer boundary.
 
-use super::mesh::{Mesh, Shape};
+use super::mesh::{Group, Mesh, Shape};
 use crate::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -53,7 +53,7 @@ pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
     let faces_at = faces_at_edges(mesh);
     let bodies = seams
         .iter()
-        .map(|seam| Ok(mesh.group(&seam.body)?.cells.iter().copied().collect()))
+        .map(|seam| Ok(group_of(mesh, seam, &seam.body)?.cells.iter().copied().collect()))
         .collect::<Result<Vec<BTreeSet<usize>>>>()?;
     let lines = border_lines(mesh, seams, &bodies, &faces_at)?;
     refuse_loose_ends(mesh, seams, &bodies, &lines, &faces_at)?;
@@ -63,6 +63,10 @@ pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
     move_lines_and_points(mesh, &mut opened, &faces_at, &copies);
     let (pairs, joints) = joints(mesh, &opened, &lines);
     Ok(Opened { mesh: opened, pairs, joints })
+}
+
+fn group_of<'a>(mesh: &'a Mesh, seam: &Seam, name: &str) -> Result<&'a Group> {
+    mesh.group(name).map_err(|e| Error::input(format!("interface \"{}\" of body \"{}\": {e}", seam.curve, seam.body)))
 }
 
 /// A line of a seam with the faces on its two sides.
@@ -95,7 +99,7 @@ fn border_lines(
 ) -> Result<Vec<BorderLine>> {
     let mut lines = Vec::new();
     for (seam, (Seam { curve, body }, faces)) in seams.iter().zip(bodies).enumerate() {
-        let group = mesh.group(curve)?;
+        let group = group_of(mesh, &seams[seam], curve)?;
         if group.dimension != 1 {
             return Err(Error::input(format!(
                 "interface \"{curve}\" must be a group of curves in the geometry; it is a group of {}",

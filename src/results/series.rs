@@ -16,7 +16,8 @@ const WAITING: usize = 4;
 
 pub struct Series {
     sender: SyncSender<Frame>,
-    writer: JoinHandle<Result<Written>>,
+    /// none once it has told its end
+    writer: Option<JoinHandle<Result<Written>>>,
 }
 
 /// What the thread did.
@@ -35,19 +36,27 @@ impl Series {
         target.write_index(&[])?;
         let (sender, receiver) = sync_channel(WAITING);
         let writer = std::thread::spawn(move || target.write_all(&grid, &receiver));
-        Ok(Series { sender, writer })
+        Ok(Series { sender, writer: Some(writer) })
     }
 
-    /// Hands a frame over; waits where too many wait already. An error of the thread is told by [`Series::finish`].
-    pub fn push(&self, frame: Frame) -> bool {
-        self.sender.send(frame).is_ok()
+    /// Hands a frame over; waits where too many wait already. Error: why an earlier frame could not be written.
+    pub fn push(&mut self, frame: Frame) -> Result<()> {
+        match self.sender.send(frame) {
+            Ok(()) => Ok(()),
+            Err(_) => end(self.writer.take()).map(|_| ()),
+        }
     }
 
     /// Waits until all frames are on disk.
     pub fn finish(self) -> Result<Written> {
         drop(self.sender);
-        self.writer.join().unwrap_or_else(|_| Err(Error::input("the thread that writes frames broke down")))
+        end(self.writer)
     }
+}
+
+fn end(writer: Option<JoinHandle<Result<Written>>>) -> Result<Written> {
+    let ended = writer.and_then(|thread| thread.join().ok());
+    ended.unwrap_or_else(|| Err(Error::input("the thread that writes frames broke down")))
 }
 
 struct Target {

@@ -47,10 +47,12 @@ impl<'a> March<'a> {
         if level == self.levels.len() {
             let dt = self.dt / f64::powi(2., level as i32);
             let shorter = Stepper::new(self.system, self.symbolic, self.scheme, dt, self.options)
-                .expect("a shorter step adds mass to a matrix that was positive definite");
+                // it adds mass to a matrix that was positive definite: only a number too large can spoil it
+                .map_err(|_| Unsettled { points: vec![] })?;
             self.levels.push(shorter);
         }
-        match self.levels[level].step(self.system, old) {
+        let finite = |step: Step| if step.state.is_finite() { Ok(step) } else { Err(Unsettled { points: vec![] }) };
+        match self.levels[level].step(self.system, old).and_then(finite) {
             Ok(step) => Ok(vec![step]),
             Err(unsettled) if level == MAX_CUTS => Err(unsettled),
             Err(_) => {

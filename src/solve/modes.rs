@@ -27,7 +27,8 @@ pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Resu
     let modes = smallest_modes(&factor, shift, &system.mass, count)?;
     let lambdas: Vec<f64> = modes.iter().map(|m| m.lambda).collect();
     refuse_gaps(symbolic, &stiffness, &system.mass, &lambdas, shift)?;
-    let frequency = |lambda: f64| lambda.max(0.).sqrt() / (2. * PI);
+    // Below that an eigenvalue is the round-off of a rigid motion's zero.
+    let frequency = |lambda: f64| if lambda < 1e-3 * shift { 0. } else { lambda.sqrt() / (2. * PI) };
     Ok(modes.into_iter().map(|m| NaturalMode { frequency: frequency(m.lambda), shape: m.shape }).collect())
 }
 

@@ -110,6 +110,10 @@ impl System {
 }
 
 impl State {
+    pub fn is_finite(&self) -> bool {
+        [&self.q, &self.v, &self.a].iter().all(|x| x.iter().all(|x| x.is_finite()))
+    }
+
     pub fn at_rest(system: &System) -> State {
         let zero = vec![0.; system.unknowns.count];
         State {

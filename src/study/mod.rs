@@ -9,7 +9,7 @@ pub mod modes;
 mod prepare;
 mod recorder;
 pub mod run;
-mod screen;
+pub mod screen;
 pub mod script;
 
 /// `coralpipe schema`: the JSON Schema of the case file.

@@ -3,7 +3,7 @@
 use super::prepare::Prepared;
 use crate::Result;
 use crate::results::file;
-use crate::results::folder::Folder;
+use crate::results::folder::{Folder, STATUS};
 use crate::results::frame::{Frame, Grid};
 use crate::results::histories::Histories;
 use crate::results::series::Series;
@@ -20,7 +20,7 @@ use std::time::Instant;
 
 pub struct Recorder<'a> {
     prepared: &'a Prepared,
-    folder: Folder,
+    folder: &'a Folder,
     /// the unknowns in equilibrium under gravity, which displacements are counted from
     origin: Vec<f64>,
     histories: Histories,
@@ -34,6 +34,9 @@ pub struct Recorder<'a> {
     started: Instant,
 }
 
+/// Status lines [bytes] that may wait for the next frame, however long that takes.
+const LONGEST_WAIT: usize = 65536;
+
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
@@ -44,8 +47,8 @@ pub enum Ending {
 
 impl<'a> Recorder<'a> {
     /// Opens the files and records the state at t = 0.
-    pub fn start(prepared: &'a Prepared, folder: Folder, state: &State, origin: Vec<f64>) -> Result<Recorder<'a>> {
-        let path = folder.file("run.sta");
+    pub fn start(prepared: &'a Prepared, folder: &'a Folder, state: &State, origin: Vec<f64>) -> Result<Recorder<'a>> {
+        let path = folder.file(STATUS);
         let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
         let mut recorder = Recorder {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
@@ -84,21 +87,22 @@ impl<'a> Recorder<'a> {
         let time = &self.prepared.model.time;
         if number.is_multiple_of(time.steps_per_frame) || number == time.steps {
             self.write_frame(&state)?;
+        } else if self.status_lines.len() > LONGEST_WAIT {
+            self.flush()?;
         }
         Ok(state)
     }
 
     fn write_frame(&mut self, state: &State) -> Result<()> {
         self.flush()?;
-        self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin));
-        Ok(())
+        self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin))
     }
 
     fn flush(&mut self) -> Result<()> {
         self.histories.flush()?;
         let lines = std::mem::take(&mut self.status_lines);
         let written = self.status.write_all(lines.as_bytes());
-        written.map_err(|e| file::not_written(&self.folder.file("run.sta"), &e))
+        written.map_err(|e| file::not_written(&self.folder.file(STATUS), &e))
     }
 
     fn write_status(&mut self, number: usize, old: &State, step: &Step) {
@@ -127,12 +131,12 @@ impl<'a> Recorder<'a> {
     }
 
     /// Closes the files and writes the summary, the last of all.
-    pub fn finish(mut self, ending: Ending, inputs: Inputs, title: &str, timing: Timing) -> Result<(Summary, Folder)> {
+    pub fn finish(mut self, ending: Ending, inputs: Inputs, title: &str, timing: Timing) -> Result<Summary> {
         self.flush()?;
         let steps_s = self.started.elapsed().as_secs_f64();
         let written = self.series.finish()?;
         let model = &self.prepared.model;
-        let summary = Summary {
+        Ok(Summary {
             status: match ending {
                 Ending::Done => "done",
                 Ending::NoConvergence => "no_convergence",
@@ -157,8 +161,7 @@ impl<'a> Recorder<'a> {
             energy: EnergyRecord::from(&self.ledger),
             timing: Timing { steps_s, output_s: written.busy.as_secs_f64(), ..timing },
             warnings: model.warnings.clone(),
-        };
-        Ok((summary, self.folder))
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::mesh::{self, Meshed};
 use super::prepare::Prepared;
 use super::recorder::{Ending, Recorder};
-use super::screen::Screen;
+use super::screen::{Screen, tell};
 use crate::model::case::{Analysis, Case};
 use crate::model::resolve::{Initial, Model};
 use crate::results::folder::Folder;
@@ -43,7 +43,17 @@ impl Request {
 }
 
 /// Set by Ctrl-C: the run stops after the step it is at, with all files valid.
-pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// Set while a run writes results.
+static MARCHING: AtomicBool = AtomicBool::new(false);
+
+/// What Ctrl-C does: a march stops after the step it is at; all else, and a march that is asked twice, ends at once.
+pub fn interrupt() {
+    if !MARCHING.load(Relaxed) || INTERRUPTED.swap(true, Relaxed) {
+        tell("coralpipe: interrupted");
+        std::process::exit(130);
+    }
+}
 
 /// A case with its mesh and model: what `run`, `check` and `modes` start from.
 pub struct Loaded {
@@ -81,19 +91,19 @@ pub fn command(request: &Request) -> Result<String> {
         ..Timing::default()
     };
     let inputs = inputs(&case, &meshed.path, request.bonded)?;
+    MARCHING.store(true, Relaxed);
     let folder = Folder::prepare(&request.folder(&case), &case.name())?;
-    let mut recorder = Recorder::start(&prepared, folder, &state, origin)?;
-    let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
-    let (mut summary, folder) = recorder.finish(ending, inputs, &case.title, timing)?;
-    summary.timing.total_s = started.elapsed().as_secs_f64();
-    folder.write_summary(&summary.to_json())?;
-    match error {
-        Some(error) => Err(with_what_is_left(error, &folder)),
-        None => {
-            folder.remove_previous()?;
-            Ok(summary.table() + &format!("results in {}\n", folder.path().display()))
-        }
-    }
+    let solve = || {
+        let mut recorder = Recorder::start(&prepared, &folder, &state, origin)?;
+        let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
+        let mut summary = recorder.finish(ending, inputs, &case.title, timing)?;
+        summary.timing.total_s = started.elapsed().as_secs_f64();
+        folder.write_summary(&summary.to_json())?;
+        error.map_or(Ok(summary), Err)
+    };
+    let summary = solve().map_err(|error| with_what_is_left(error, &folder))?;
+    folder.remove_previous()?;
+    Ok(summary.table() + &format!("results in {}\n", folder.path().display()))
 }
 
 /// The state at t = 0, the unknowns in equilibrium under gravity, and the march from there.
@@ -113,15 +123,17 @@ fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
             (Scheme::Dynamic(model.integrator), state, origin)
         }
     };
+    if !state.is_finite() {
+        return Err(Error::input(
+            "the state at t = 0 has numbers too large for a computer: check loads, gravity and densities",
+        ));
+    }
     let march = March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?;
     Ok((state, origin, march))
 }
 
 fn no_rest(prepared: &Prepared, unsettled: &Unsettled) -> Error {
-    Error::NoConvergence(format!(
-        "no equilibrium under gravity was found: joint points keep changing between open, sticking and slipping: {}",
-        places(prepared, unsettled)
-    ))
+    Error::NoConvergence(format!("no equilibrium under gravity was found: {}", restless(prepared, unsettled)))
 }
 
 fn march_to_end(
@@ -154,36 +166,46 @@ fn march_to_end(
 /// Names the joints that keep changing their status.
 fn unsettled_joints(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: usize) -> String {
     format!(
-        "no convergence in step {number} after t = {time} s, even with the time step cut by 32: joint points keep changing \
-         between open, sticking and slipping: {}; try a smaller time.step, a larger interface thickness, or damping",
-        places(prepared, unsettled)
+        "no convergence in step {number} after t = {time} s, even with the time step cut by 32: {}; try a smaller time.step, \
+         a larger interface thickness, or damping",
+        restless(prepared, unsettled)
     )
 }
 
-fn places(prepared: &Prepared, unsettled: &Unsettled) -> String {
+fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
     let model = &prepared.model;
+    if unsettled.points.is_empty() {
+        return format!(
+            "no joint changes its status, but the residual stays above newton.tolerance = {:e}, or numbers grow too large \
+             for a computer",
+            model.newton.tolerance
+        );
+    }
     let place = |&i: &usize| {
         let point = &prepared.system.interface.points[i];
         let [x, y] = point.at;
         format!("{} at ({x:.4}, {y:.4}) m", model.seams[model.joints[point.joint].seam].curve)
     };
-    let places: Vec<String> = unsettled.points.iter().take(6).map(place).collect();
-    let more = unsettled.points.len().saturating_sub(places.len());
-    let and_more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    places.join(", ") + &and_more
+    // Neighbouring joints have a point each at their common corner.
+    let mut places: Vec<String> = unsettled.points.iter().map(place).collect();
+    places.sort_unstable();
+    places.dedup();
+    let and_more = if places.len() > 6 { format!(" and {} more", places.len() - 6) } else { String::new() };
+    places.truncate(6);
+    format!("joint points keep changing between open, sticking and slipping: {}{and_more}", places.join(", "))
 }
 
 fn with_what_is_left(error: Error, folder: &Folder) -> Error {
     let path = folder.path().display();
     let kept = match folder.has_previous() {
-        true => format!("; the results of the run before are in {path}/previous"),
+        true => format!("; the results of an earlier run are in {path}/previous"),
         false => String::new(),
     };
     let whole = |sentence: String| format!("{sentence}; what was computed until then is in {path}{kept}");
     match error {
         Error::NoConvergence(s) => Error::NoConvergence(whole(s)),
         Error::Interrupted(s) => Error::Interrupted(whole(s)),
-        input => input,
+        Error::Input(s) => Error::Input(s + &kept),
     }
 }
 

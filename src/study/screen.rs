@@ -1,7 +1,7 @@
 //! What a run tells on stderr: sentences, warnings, and a progress bar on a terminal or plain lines in a log.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 
 pub struct Screen {
     quiet: bool,
@@ -23,13 +23,13 @@ impl Screen {
 
     pub fn say(&self, sentence: &str) {
         if !self.quiet {
-            eprintln!("{sentence}");
+            tell(sentence);
         }
     }
 
     /// Warnings are told even to those who want quiet.
     pub fn warn(&self, sentence: &str) {
-        eprintln!("warning: {sentence}");
+        tell(&format!("warning: {sentence}"));
     }
 
     pub fn progress(&self, steps: usize) -> Progress {
@@ -54,9 +54,14 @@ impl Progress {
             Progress::Lines { steps } => {
                 let tenth = |n: usize| 10 * n / steps;
                 if tenth(number) > tenth(number - 1) {
-                    eprintln!("step {number} of {steps}");
+                    tell(&format!("step {number} of {steps}"));
                 }
             }
         }
     }
+}
+
+/// A line on stderr. That nobody reads it (`2>&1 | head`) is no reason to stop.
+pub fn tell(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -1,0 +1,400 @@
+//! The command line: what goes in wrong comes out as one sentence and the right exit code (README, "Exit codes").
+
+mod program;
+
+use program::{Bench, CASE, Outcome, block_msh, code_of};
+use std::os::unix::ffi::OsStrExt;
+
+/// What is done, how the program is called (words between blanks), and what its sentence must contain.
+type Row = (&'static str, &'static str, &'static [&'static str]);
+
+fn refused(what: &str, outcome: &Outcome, words: &[&str]) {
+    let Outcome { code, stdout, stderr } = outcome;
+    assert_eq!(*code, Some(1), "{what}: exit code of: {stderr}");
+    assert_eq!(stdout, "", "{what}: stdout is for results");
+    let sentence = stderr.lines().last().unwrap_or_default();
+    assert!(sentence.starts_with("coralpipe: "), "{what}: {stderr}");
+    assert!(!stderr.contains("panicked"), "{what}: {stderr}");
+    for word in words {
+        assert!(sentence.contains(word), "{what}: no {word:?} in: {sentence}");
+    }
+}
+
+/// `run`, `check` and `modes` must refuse alike, and `run` must leave nothing behind.
+fn all_refuse(bench: &Bench, rows: &[Row]) {
+    for (what, arguments, words) in rows {
+        for command in ["run", "check", "modes"] {
+            refused(&format!("{command}, {what}"), &bench.run_line(&format!("{command} {arguments}")), words);
+        }
+        assert!(!bench.path("output").exists(), "{what}: a refused run must not write");
+    }
+}
+
+#[test]
+fn a_bad_case_file_is_refused_with_its_place() {
+    let bench = Bench::new("case");
+    bench.write("broken.json", "{ \"materials\":\n { \"ground\" ");
+    bench.write("empty.json", "");
+    bench.write("binary.json", b"\xff\xfe\x00{}");
+    bench.write("number.json", "7");
+    bench.write("nan.json", CASE.replace("0.3,", "NaN,"));
+    all_refuse(
+        &bench,
+        &[
+            ("missing file", "nowhere.json", &["nowhere.json", "No such file", "block.json"]),
+            ("missing folder", "no/where.json", &["no/where.json", "No such file"]),
+            ("folder for a file", ".", &["Is a directory"]),
+            ("broken JSON", "broken.json", &["broken.json", "line 2", "not JSON"]),
+            ("empty file", "empty.json", &["empty.json", "not JSON"]),
+            ("not text", "binary.json", &["binary.json", "UTF-8"]),
+            ("not an object", "number.json", &["number.json", "7", "an object"]),
+            ("NaN", "nan.json", &["nan.json", "line 3", "not JSON"]),
+            ("NaN with a unit", "block.json --set time.end=NaN", &["time.end", "NaN", "finite"]),
+            ("infinite", "block.json --set time.end=1e999", &["time.end", "finite"]),
+            ("unknown key", "block.json --set matrials=1", &["matrials", "did you mean \"materials\"", "supports"]),
+            ("unknown key below", "block.json --set time.stop=1", &["time", "\"stop\"", "\"step\"", "end"]),
+            ("wrong unit", "block.json --set materials.body.young=3kg", &["materials.body.young", "3kg", "GPa"]),
+            ("negative density", "block.json --set materials.body.density=-1", &["materials.body.density", "-1", "0"]),
+            ("nu = 0.5", "block.json --set materials.body.poisson=0.5", &["materials.body.poisson", "less than 0.5"]),
+            ("nu = -1", "block.json --set materials.body.poisson=-1", &["materials.body.poisson", "greater than -1"]),
+            ("zero time step", "block.json --set time.step=0", &["time.step", "greater than 0"]),
+            ("negative time step", "block.json --set time.step=-1ms", &["time.step", "greater than 0"]),
+            ("end before the first step", "block.json --set time.end=0.1ms", &["time.end", "at least one step"]),
+            ("too many steps", "block.json --set time.step=1e-12", &["time.end", "time.step", "1e10 steps", "1e9"]),
+            ("steps beyond numbers", "block.json --set time.step=5e-324", &["time.end", "time.step"]),
+            ("frames between steps", "block.json --set output.every=0.1ms", &["output.every", "time step"]),
+            ("no iterations", "block.json --set newton.max_iterations=0", &["newton.max_iterations", "at least 1"]),
+            ("zero thickness", "block.json --set interfaces.interface.thickness=0", &["thickness", "greater than 0"]),
+            ("axis z", "block.json --set supports.base=[\"z\"]", &["supports.base[0]", "\"z\"", "x, y"]),
+            ("two probes of one name", "block.json --set probes=[\"P\",\"P\"]", &["probes[1]", "\"P\"", "already"]),
+            ("a probe without a name", "block.json --set probes=[\"\"]", &["probes[0]", "column"]),
+            ("no geometry", "block.json --set geometry=null", &["block.json", "\"geometry\"", "--mesh"]),
+            ("empty geometry", "block.json --set geometry={}", &["geometry", "\"script\"", "\"mesh\""]),
+        ],
+    );
+}
+
+#[test]
+fn a_bad_mesh_is_refused_with_its_place() {
+    let bench = Bench::new("mesh");
+    let mesh = block_msh();
+    bench.write("empty.msh", "");
+    bench.write("cut.msh", &mesh[..mesh.len() - 400]);
+    bench.write("cut_nodes.msh", &mesh[..400]);
+    bench.write("no_faces.msh", mesh.lines().take_while(|l| *l != "$Elements").collect::<Vec<_>>().join("\n"));
+    bench.write("bent.msh", mesh.replace("\n8 1 1 0\n", "\n8 1 1 0.5\n"));
+    bench.write("nan.msh", mesh.replace("\n8 1 1 0\n", "\n8 nan 1 0\n"));
+    bench.write("folded.msh", mesh.replace("\n8 1 1 0\n", "\n8 4.5 4.5 0\n"));
+    bench.write("tetrahedron.msh", tetrahedron());
+    bench.write("no_groups.msh", without_names(&mesh));
+    all_refuse(
+        &bench,
+        &[
+            ("missing mesh", "block.json --mesh nowhere.msh", &["nowhere.msh", "No such file"]),
+            (
+                "missing mesh of the case",
+                "block.json --set geometry.mesh=nowhere.msh",
+                &["nowhere.msh", "No such file"],
+            ),
+            ("folder for a mesh", "block.json --mesh .", &["the mesh .", "Is a directory"]),
+            ("no mesh", "block.json --mesh block.json", &["block.json", "no Gmsh mesh", "$MeshFormat"]),
+            ("empty mesh file", "block.json --mesh empty.msh", &["empty.msh", "empty"]),
+            ("truncated in the elements", "block.json --mesh cut.msh", &["cut.msh", "$Elements", "cut off"]),
+            ("truncated in the nodes", "block.json --mesh cut_nodes.msh", &["cut_nodes.msh", "$Nodes", "cut off"]),
+            ("no elements", "block.json --mesh no_faces.msh", &["no_faces.msh", "$Elements"]),
+            ("a bent plane", "block.json --mesh bent.msh", &["bent.msh", "node 8", "z = 0.5"]),
+            ("a node nowhere", "block.json --mesh nan.msh", &["nan.msh", "$Nodes", "NaN"]),
+            ("a folded element", "block.json --mesh folded.msh", &["folded.msh"]),
+            ("a mesh in space", "block.json --mesh tetrahedron.msh", &["tetrahedron.msh"]),
+            ("a mesh without names", "block.json --mesh no_groups.msh", &["physical_2_1"]),
+        ],
+    );
+}
+
+/// A tetrahedron alone, in the volume group "rock".
+fn tetrahedron() -> String {
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"rock\"\n$EndPhysicalNames\n\
+     $Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n"
+        .into()
+}
+
+fn without_names(mesh: &str) -> String {
+    let (head, rest) = mesh.split_once("$PhysicalNames").unwrap();
+    head.to_string() + rest.split_once("$EndPhysicalNames\n").unwrap().1
+}
+
+/// The block's groups, as sentences list them.
+const ALL: &str = "P, Q, base, body, ground, interface, top";
+
+#[test]
+fn names_that_do_not_fit_the_mesh_are_refused_with_those_that_exist() {
+    let bench = Bench::new("groups");
+    let mesh = block_msh();
+    // the first of the interface's four lines gets a group of its own: the seam stays shut there
+    bench.write("gap.msh", mesh.replacen(" 1 2 3 1 15 16\n", " 1 2 9 1 15 16\n", 1));
+    bench.write("unnamed_ground.msh", mesh.replace("2 1 \"ground\"", "2 1 \"soil\""));
+    assert_ne!(std::fs::read_to_string(bench.path("gap.msh")).unwrap(), mesh);
+
+    all_refuse(
+        &bench,
+        &[
+            ("support", "block.json --set supports.foot=[\"x\"]", &["supports", "\"foot\"", ALL]),
+            (
+                "load",
+                "block.json --set loads.roof={\"pressure\":{\"law\":\"step\",\"peak\":1}}",
+                &["load", "\"roof\"", ALL],
+            ),
+            (
+                "pressure on a surface",
+                "block.json --set loads.ground={\"pressure\":{\"law\":\"step\",\"peak\":1}}",
+                &["load \"ground\"", "curves", "surfaces"],
+            ),
+            ("probe", "block.json --set probes=[\"Z\"]", &["probe \"Z\"", ALL]),
+            ("probe on a surface", "block.json --set probes=[\"body\"]", &["probe \"body\"", "points", "surfaces"]),
+            (
+                "body of a probe",
+                "block.json --set probes=[{\"name\":\"N\",\"at\":[1,1],\"body\":\"pipe\"}]",
+                &["\"pipe\"", ALL],
+            ),
+            (
+                "interface",
+                "block.json --set interfaces.seam={\"body\":\"body\",\"thickness\":0.01}",
+                &["interface \"seam\"", "no physical group", ALL],
+            ),
+            (
+                "body of an interface",
+                "block.json --set interfaces.interface.body=pipe",
+                &["interface \"interface\"", "no physical group \"pipe\"", ALL],
+            ),
+            (
+                "interface elsewhere",
+                "block.json --set interfaces.base={\"body\":\"body\",\"thickness\":0.01}",
+                &["interface \"base\"", "border of its body \"body\"", "(0.0000, 0.0000)"],
+            ),
+            (
+                "interface of surfaces",
+                "block.json --set interfaces.ground={\"body\":\"body\",\"thickness\":0.01}",
+                &["interface \"ground\"", "group of curves", "surfaces"],
+            ),
+            ("interface with an end", "block.json --mesh gap.msh", &["interface \"interface\"", "ends at", "\"body\""]),
+            (
+                "interface without friction",
+                "block.json --set materials.ground={\"young\":1e8,\"poisson\":0,\"density\":2000}",
+                &["interface \"interface\"", "materials.ground.friction"],
+            ),
+            ("material", "block.json --mesh unnamed_ground.msh", &["\"soil\"", "no material", "body, ground"]),
+        ],
+    );
+}
+
+#[test]
+fn a_run_that_cannot_begin_says_why() {
+    let bench = Bench::new("begin");
+    bench.write("no_script.json", CASE.replace("\"mesh\": \"block.msh\"", "\"script\": \"nowhere.geo\""));
+    bench.write("script.json", CASE.replace("\"mesh\": \"block.msh\"", "\"script\": \"block.geo\""));
+    bench.write("block.geo", "DefineConstant[ width = 5 ];\n");
+    let rows: [Row; 17] = [
+        ("too few modes", "run block.json --set damping.modes=[1,9999]", &["damping.modes", "9999", "68 modes"]),
+        ("all held", "run block.json --set supports.ground=[\"x\",\"y\"] --bonded", &["nothing can move"]),
+        ("--set without =", "run block.json --set time", &["--set", "\"time\"", "PATH=VALUE"]),
+        ("--set of nothing", "run block.json --set =1", &["--set", "not a path"]),
+        ("--set with a hole", "run block.json --set time..step=1", &["\"time..step\"", "not a path"]),
+        ("--set in a number", "run block.json --set time.step.x=1", &["\"x\"", "single value"]),
+        ("--set behind a list", "run block.json --set probes.7=P", &["\"7\"", "list of 2"]),
+        ("--geo with --mesh", "run block.json --geo a=1 --mesh block.msh", &["--geo", "--mesh"]),
+        ("--geo without script", "run block.json --geo a=1", &["--geo", "block.json", "block.msh"]),
+        ("--geo without value", "run block.json --geo a", &["--geo a", "NAME=NUMBER"]),
+        ("--geo of a word", "run block.json --geo a=wide", &["--geo a=wide", "NAME=NUMBER"]),
+        ("--geo NaN", "run block.json --geo a=nan", &["--geo a=nan", "NAME=NUMBER"]),
+        ("--geo of nothing", "run script.json --geo =1", &["width"]),
+        ("--geo unknown", "run script.json --geo widht=1", &["\"widht\"", "width"]),
+        ("missing script", "run no_script.json", &["nowhere.geo"]),
+        ("gmsh not found", "run script.json", &["gmsh", "PATH", "install", "CORALPIPE_GMSH"]),
+        ("gmsh not found by mesh", "mesh script.json", &["gmsh", "PATH", "install", "CORALPIPE_GMSH"]),
+    ];
+    for (what, line, words) in rows {
+        refused(what, &bench.run_line(line), words);
+        assert!(!bench.path("output").exists(), "{what}: a refused run must not write");
+    }
+}
+
+/// Tests may run as root, whom permissions do not stop: a file stands where a folder must be made.
+#[test]
+fn a_folder_that_cannot_be_written_is_named_with_the_way_out() {
+    let bench = Bench::new("out");
+    let rows: [Row; 4] = [
+        ("a file for the folder", "run block.json --out block.msh", &["block.msh", "--out"]),
+        ("below a file", "run block.json --out block.msh/deep", &["block.msh/deep", "--out"]),
+        ("no disk at all", "run block.json --out /proc/none", &["/proc/none", "--out"]),
+        ("modes below a file", "modes block.json --out block.msh", &["block.msh/modes", "--out"]),
+    ];
+    for (what, line, words) in rows {
+        refused(what, &bench.run_line(line), words);
+    }
+    assert_eq!(std::fs::read_to_string(bench.path("block.msh")).unwrap(), block_msh());
+}
+
+#[test]
+fn usage_errors_end_with_2() {
+    let bench = Bench::new("usage");
+    let lines = [
+        "",
+        "fly",
+        "run --wrong",
+        "run a.json b.json",
+        "run block.json --set",
+        "run block.json --out",
+        "modes block.json -n many",
+        "modes block.json -n -1",
+        "check block.json --bonded",
+        "schema block.json",
+    ];
+    for line in lines {
+        let Outcome { code, stdout, stderr } = bench.run_line(line);
+        assert_eq!((code, stdout.as_str()), (Some(2), ""), "{line}: {stderr}");
+        assert!(stderr.contains("Usage") || stderr.contains("--help"), "{line}: {stderr}");
+    }
+    refused("no modes", &bench.run_line("modes block.json -n 0"), &["-n 0", "at least one"]);
+}
+
+/// Odd, but each of them means something: the run is done and the warning, if there is one, is on stderr.
+#[test]
+fn what_is_odd_but_has_a_meaning_runs() {
+    let bench = Bench::new("odd");
+    let rows: [Row; 13] = [
+        (
+            "unused group",
+            "run block.json --set supports={\"top\":[\"x\",\"y\"]}",
+            &["warning: ", "does not use", "base"],
+        ),
+        (
+            "unused material",
+            "run block.json --set materials.mud={\"young\":1,\"poisson\":0,\"density\":1}",
+            &["\"mud\""],
+        ),
+        (
+            "unused interface",
+            "run block.json --set interfaces.i={\"body\":\"b\",\"thickness\":1}",
+            &["\"i\" is not used"],
+        ),
+        ("end not a multiple of the step", "run block.json --set time.end=10.2ms", &["time.end", "0.01 s is used"]),
+        ("a probe far away", "run block.json --set probes=[{\"name\":\"f\",\"at\":[9,5]}]", &["\"f\"", "4.000 m away"]),
+        ("no probes", "run block.json --set probes=[]", &[]),
+        ("no loads", "run block.json --set loads={}", &["top"]),
+        ("one step", "run block.json --set time.end=0.5ms --set output.every=0.5ms", &[]),
+        ("more modes than there are", "modes block.json -n 18446744073709551615", &[]),
+        ("endless iterations", "run block.json --set newton.max_iterations=18446744073709551615", &[]),
+        ("frames after the end", "run block.json --set output.every=1e300", &[]),
+        ("a body in a hole too wide to touch", "run block.json --set interfaces.interface.gap=1m", &[]),
+        ("bonded", "run block.json --bonded", &[]),
+    ];
+    for (what, line, words) in rows {
+        let Outcome { code, stderr, .. } = bench.run_line(line);
+        assert_eq!(code, Some(0), "{what}: {stderr}");
+        words.iter().for_each(|word| assert!(stderr.contains(word), "{what}: no {word:?} in: {stderr}"));
+    }
+}
+
+/// Nothing holds the block: the impulse p T/2 * 5 m moves its 24 m2 of 2000 and 1 m2 of 7800 kg/m3 downwards.
+#[test]
+fn a_mesh_that_nothing_holds_moves_as_a_rigid_body_on_average() {
+    let bench = Bench::new("loose");
+    let refusal = bench.run_line("run block.json --set supports={}");
+    refused("damping ratio of rigid motions", &refusal, &["damping.modes", "0 Hz", "alpha and beta"]);
+
+    let outcome = bench.run_line("run block.json --set supports={} --set damping=null --set time.end=60ms --quiet");
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    let table = std::fs::read_to_string(bench.path("output/block/histories.csv")).unwrap();
+    let row = |at: f64| -> Vec<f64> {
+        let rows = table.lines().skip(1).map(|l| l.split(',').map(|x| x.parse().unwrap()).collect());
+        rows.min_by(|a: &Vec<f64>, b: &Vec<f64>| (a[0] - at).abs().total_cmp(&(b[0] - at).abs())).unwrap()
+    };
+    let (early, late) = (row(0.02), row(0.06));
+    // mean velocity of P and Q; the block's own vibrations (3 mm at most) hide some of it
+    let mean = [2, 8].map(|uy| (late[uy] - early[uy]) / (late[0] - early[0])).iter().sum::<f64>() / 2.;
+    let rigid = -100e3 * 0.02 / 2. * 5. / (24. * 2000. + 7800.);
+    assert!((mean / rigid - 1.).abs() < 0.1, "{mean} m/s, and {rigid} m/s by the impulse");
+}
+
+#[test]
+fn names_that_are_no_text_and_names_xml_must_escape_give_a_series_that_opens() {
+    let bench = Bench::new("names");
+    for name in [&b"bl\xffck"[..], b"a & b <c> \"d\" 'e'", "Küste ö".as_bytes(), b".hidden", b"a.b.c"] {
+        let file = [name, b".json"].concat();
+        bench.write(std::ffi::OsStr::from_bytes(&file), CASE);
+        let run = [std::ffi::OsStr::new("run"), std::ffi::OsStr::from_bytes(&file)];
+        let outcome = bench.run(&run);
+        assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+        let shown = String::from_utf8_lossy(name).into_owned();
+        let series = std::fs::read_to_string(bench.path(format!("output/{shown}/{shown}.pvd"))).unwrap();
+        let frame = |line: &str| Some(line.split_once("file=\"")?.1.split_once("\"/>")?.0.to_string());
+        let frames: Vec<String> = series.lines().filter_map(frame).collect();
+        assert_eq!(frames.len(), 11, "{series}");
+        for frame in frames {
+            assert!(!frame.contains(['<', '"']), "{frame}");
+            let plain = frame.replace("&lt;", "<").replace("&quot;", "\"").replace("&amp;", "&");
+            assert!(bench.path(format!("output/{shown}/{plain}")).is_file(), "{plain}");
+        }
+    }
+}
+
+#[test]
+fn results_go_to_stdout_and_all_else_to_stderr() {
+    let bench = Bench::new("streams");
+    let Outcome { code, stdout, stderr } =
+        bench.run_line("run block.json --set probes=[{\"name\":\"f\",\"at\":[9,5]}]");
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(stdout.contains("frequencies") && stdout.contains("results in output/block\n"), "{stdout}");
+    for told in ["mesh block.msh", "warning: ", "step 20 of 20"] {
+        assert!(stderr.contains(told) && !stdout.contains(told), "{told}: {stderr}");
+    }
+    let quiet = bench.run_line("run block.json --quiet");
+    assert_eq!((quiet.code, quiet.stderr.as_str()), (Some(0), ""));
+    assert!(quiet.stdout.contains("results in output/block\n"));
+    for line in ["schema", "check block.json", "modes block.json --out m", "--version", "run --help"] {
+        let outcome = bench.run_line(line);
+        assert!(outcome.code == Some(0) && !outcome.stdout.is_empty(), "{line}: {}", outcome.stderr);
+    }
+}
+
+/// `coralpipe schema | head -1`, `coralpipe run 2>&1 | head -1`: the other end is closed before a word is said.
+#[test]
+fn a_pipe_that_nobody_reads_stops_nothing() {
+    let bench = Bench::new("pipe");
+    for line in ["schema", "check block.json", "run block.json", "--help"] {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let (_, broken) = std::io::pipe().unwrap();
+        let stderr = bench.path("stderr");
+        let mut program = bench.program(&words);
+        program.stdout(broken).stderr(std::fs::File::create(&stderr).unwrap());
+        let code = code_of(program.spawn().unwrap());
+        let told = std::fs::read_to_string(stderr).unwrap();
+        assert!(code == Some(0) && !told.contains("panicked"), "{line}: {code:?}, {told}");
+    }
+    let (_, broken) = std::io::pipe().unwrap();
+    let both = broken.try_clone().unwrap();
+    assert_eq!(code_of(bench.program(&["run", "block.json"]).stdout(broken).stderr(both).spawn().unwrap()), Some(0));
+    assert!(bench.path("output/block/summary.json").is_file());
+
+    let (_, broken) = std::io::pipe().unwrap();
+    assert_eq!(code_of(bench.program(&["run", "nowhere.json"]).stderr(broken).spawn().unwrap()), Some(1));
+}
+
+/// A full disk is no closed pipe: what was asked for is lost, and that is told.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_result_that_stdout_does_not_take_is_an_error() {
+    let bench = Bench::new("full");
+    let full = || std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let stderr = bench.path("stderr");
+    let mut program = bench.program(&["schema"]);
+    program.stdout(full()).stderr(std::fs::File::create(&stderr).unwrap());
+    assert_eq!(code_of(program.spawn().unwrap()), Some(1));
+    assert!(std::fs::read_to_string(stderr).unwrap().contains("stdout cannot be written"));
+    assert_eq!(
+        code_of(
+            bench.program(&["run", "block.json"]).stdout(std::process::Stdio::null()).stderr(full()).spawn().unwrap()
+        ),
+        Some(0)
+    );
+}
