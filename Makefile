@@ -1,0 +1,47 @@
+# make          sets up what is missing, builds, meshes, solves; the results are in output/twin_pipes/
+# make test     every test
+# make batch    all variants of geo/batch.txt, with -j2 two at a time; the peaks are in output/batch.csv
+# make book     the verification book: every case with an exact answer, written to docs/verification/
+# make picture  the README's picture, by ParaView
+# make clean    removes what was built and computed; the default mesh stays
+
+program := target/release/coralpipe
+python := .venv/bin/python
+sources := $(shell find src -name '*.rs') Cargo.toml Cargo.lock
+
+.PHONY: all setup test batch picture clean
+all: setup $(program)
+	$(program) run
+
+setup:
+	@scripts/setup.sh
+
+$(program): $(sources) | setup
+	cargo build --release --locked
+	@touch $@
+
+test: setup $(program)
+	cargo fmt --all --check
+	cargo clippy --release --all-targets --locked -- --deny warnings
+	cargo test --release --locked --no-fail-fast
+	$(python) scripts/check_licences.py
+	$(program) mesh
+	$(python) scripts/check_mesh.py meshes/twin_pipes.msh --case geo/twin_pipes.json
+	$(program) run --quiet --out output/test
+	$(python) scripts/check_output.py output/test
+	$(python) scripts/random_geometries.py 50 2026 --binary $(program)
+
+# Goes on where one variant fails, so that the table holds the others; the failure is told at the end.
+batch: setup $(program)
+	@$(MAKE) --no-print-directory --keep-going --file scripts/batch.mk; made=$$?; \
+	$(python) scripts/batch.py table geo/batch.txt output/batch.csv && exit $$made
+
+# A display server that was just closed can refuse the next one: then once more.
+picture: all
+	for try in 1 2 3; do \
+	    xvfb-run -a pvpython scripts/render.py output/twin_pipes docs/twin_pipes.png --time 0.09 && exit 0; sleep 2; done; exit 1
+
+clean:
+	cargo clean
+	rm -rf output
+	find meshes -type f ! -name 'twin_pipes.msh' ! -name 'twin_pipes.json' -delete
