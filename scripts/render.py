@@ -15,9 +15,11 @@ import sys
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-FIELDS = {  # association, array, factor to the unit shown, title, unit
-    "displacement": ("POINTS", "displacement", 1e3, "Displacement", "mm"),
-    "von_mises": ("CELLS", "von_mises", 1e-6, "Von Mises stress", "MPa"),
+FIELDS = {  # association, value in the unit shown, title, unit
+    "displacement": ("POINTS", "1e3*mag(displacement)", "Displacement", "mm"),
+    "velocity": ("POINTS", "1e3*velocity_Y", "Vertical velocity", "mm/s"),
+    "pressure": ("CELLS", "-1e-3*stress_YY", "Vertical pressure", "kPa"),
+    "von_mises": ("CELLS", "1e-6*von_mises", "Von Mises stress", "MPa"),
 }
 SIZE = (1600, 900)
 BAND = 0.74  # height of the ground's surface in the picture: 0 the middle, 1 the top
@@ -68,17 +70,20 @@ def window(grid):
     return x, y, max((grid.GetBounds()[3] - y) / BAND, 1.2 * row * SIZE[1] / SIZE[0])
 
 
-def show_field(source, field, view):
-    """The field as colours, with its bar."""
-    association, array, scale, title, unit = FIELDS[field]
-    value = f"mag({array})" if association == "POINTS" else array
+def show_field(source, field, limits, view):
+    """The field as colours between `limits` (those of the data, if None), with its bar."""
+    association, value, title, unit = FIELDS[field]
     kind = "Point Data" if association == "POINTS" else "Cell Data"
-    shown = simple.Calculator(Input=source, ResultArrayName="shown", AttributeType=kind, Function=f"{scale}*{value}")
+    shown = simple.Calculator(Input=source, ResultArrayName="shown", AttributeType=kind, Function=value)
     display = simple.Show(shown, view)
+    display.Ambient, display.Diffuse = 1, 0  # the bar's own colours: no lamp
     simple.ColorBy(display, (association, "shown"))
     table = simple.GetColorTransferFunction("shown")
     table.ApplyPreset("Viridis (matplotlib)", True)
-    display.RescaleTransferFunctionToDataRange(False, True)
+    if limits is None:
+        display.RescaleTransferFunctionToDataRange(False, True)
+    else:
+        table.RescaleTransferFunction(*limits)
     bar = simple.GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = f"{title} [{unit}]", ""
     bar.RangeLabelFormat = "%.3g"
@@ -111,6 +116,7 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("picture")
     parser.add_argument("--field", choices=sorted(FIELDS), default="displacement")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LEAST", "MOST"), help="of the colours; default: all values")
     parser.add_argument("--time", type=float, help="in seconds; the nearest frame is taken")
     args = parser.parse_args()
 
@@ -125,7 +131,7 @@ def main():
     view.Background = [1, 1, 1]
     simple.GetAnimationScene().AnimationTime = time  # what every filter and view now shows
     warped = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement"], ScaleFactor=factor)
-    show_field(warped, args.field, view)
+    show_field(warped, args.field, args.range, view)
     show_outlines(warped, grid, view)
     show_caption(f"t = {1e3 * time:.3g} ms, displacements x {factor:g}", view)
     view.CameraParallelProjection = 1
