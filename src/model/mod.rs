@@ -6,5 +6,6 @@ pub mod msh;
 mod plane;
 pub mod quality;
 pub mod resolve;
+pub mod ring;
 pub mod split;
 pub mod units;

@@ -9,7 +9,7 @@ use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
 use crate::physics::shape::Shape;
 use crate::{Error, Result};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Everything the equations need, by index.
 #[derive(Debug, Clone)]
@@ -24,6 +24,8 @@ pub struct Model {
     pub mass: Mass,
     /// names of the open interfaces; joints refer to them
     pub seams: Vec<Seam>,
+    /// names of the interfaces' bodies, each once; also where the case is bonded
+    pub bodies: Vec<String>,
     pub pairs: Vec<Pair>,
     pub joints: Vec<Joint>,
     /// for each joint
@@ -106,7 +108,9 @@ impl Model {
     pub fn new(case: &Case, mesh: &Mesh, bonded: bool) -> Result<Model> {
         let mut warnings = Vec::new();
         let (materials, material_of) = materials(case, mesh, &mut warnings)?;
-        let seams = if bonded { vec![] } else { seams(case, mesh, &mut warnings) };
+        let interfaces = seams(case, mesh, &mut warnings);
+        let bodies: BTreeSet<String> = interfaces.iter().map(|seam| seam.body.clone()).collect();
+        let seams = if bonded { vec![] } else { interfaces };
         quality::refuse_folded(mesh)?;
         let opened = split::open(mesh, &seams)?;
         let mesh = opened.mesh;
@@ -136,6 +140,7 @@ impl Model {
             materials,
             material_of,
             seams,
+            bodies: bodies.into_iter().collect(),
             laws,
             mesh,
             warnings,

@@ -82,7 +82,7 @@ impl Folder {
     fn entries(&self) -> Vec<String> {
         let files = std::fs::read_dir(&self.path).into_iter().flatten().flatten();
         let series = files.filter_map(|f| f.file_name().into_string().ok()).filter(|name| name.ends_with(".pvd"));
-        let others = [SUMMARY, "frames", "histories.csv", STATUS].map(String::from);
+        let others = [SUMMARY, "frames", "histories.csv", "rings.csv", STATUS].map(String::from);
         series.chain(others).filter(|entry| self.file(entry).exists()).collect()
     }
 }

@@ -4,6 +4,7 @@ use super::unknowns::Unknowns;
 use crate::model::case::{Mass, Quad4};
 use crate::model::resolve::{Border, Load, Model, Target};
 use crate::physics::element::{self, Integral};
+use crate::physics::material::Material;
 use crate::physics::shape::Shape;
 use nalgebra::DMatrix;
 use sprs::{CsMat, TriMat};
@@ -13,22 +14,27 @@ pub fn stiffness_and_mass(model: &Model, unknowns: &Unknowns) -> (CsMat<f64>, Cs
     let shape = (unknowns.count, unknowns.count);
     let (mut k, mut m) = (TriMat::new(shape), TriMat::new(shape));
     for (cell, material) in model.faces() {
-        let nodes = &model.mesh.cells[cell].nodes;
-        let at = corners(model, nodes);
-        let shape = model.mesh.cells[cell].shape;
-        let for_stiffness = element::points(shape, &at, Integral::Stiffness);
-        let for_mass = element::points(shape, &at, Integral::Mass);
-        let mass = match model.mass {
-            Mass::Consistent => element::mass(&for_mass, material.density),
-            Mass::Lumped => element::lumped_mass(&for_mass, material.density),
-        };
-        let stiffness = match (shape, model.quad4) {
-            (Shape::Quad4, Quad4::BBar) => element::b_bar_stiffness(&for_stiffness, material),
-            _ => element::stiffness(&for_stiffness, &material.plane_strain()),
-        };
-        scatter(&mut k, &mut m, unknowns, nodes, &stiffness, &mass);
+        let (stiffness, mass) = of_face(model, cell, material);
+        scatter(&mut k, &mut m, unknowns, &model.mesh.cells[cell].nodes, &stiffness, &mass);
     }
     (k.to_csr(), m.to_csr())
+}
+
+/// k [N/m] and m [kg] of one face.
+pub fn of_face(model: &Model, cell: usize, material: &Material) -> (DMatrix<f64>, DMatrix<f64>) {
+    let shape = model.mesh.cells[cell].shape;
+    let at = corners(model, &model.mesh.cells[cell].nodes);
+    let for_stiffness = element::points(shape, &at, Integral::Stiffness);
+    let for_mass = element::points(shape, &at, Integral::Mass);
+    let mass = match model.mass {
+        Mass::Consistent => element::mass(&for_mass, material.density),
+        Mass::Lumped => element::lumped_mass(&for_mass, material.density),
+    };
+    let stiffness = match (shape, model.quad4) {
+        (Shape::Quad4, Quad4::BBar) => element::b_bar_stiffness(&for_stiffness, material),
+        _ => element::stiffness(&for_stiffness, &material.plane_strain()),
+    };
+    (stiffness, mass)
 }
 
 /// Adds T' k T and T' m T of one element, entry by entry alike, zeros too: that keeps the patterns the same.
@@ -53,53 +59,63 @@ fn scatter(
     }
 }
 
+/// Forces on the nodes of one loaded line or face, or on one point [N, or N per unit of the pulse].
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodalForces {
+    pub nodes: Vec<usize>,
+    pub forces: Vec<[f64; 2]>,
+}
+
 /// f = T' (integral of N' t over the loaded lines, or the forces on the points) [N per unit of the pulse].
 pub fn load(model: &Model, unknowns: &Unknowns, load: &Load) -> Vec<f64> {
-    let mut f = vec![0.; unknowns.count];
-    let mut add = |node: usize, force: [f64; 2]| {
-        for axis in 0..2 {
-            for &(i, sign) in unknowns.row(node, axis) {
-                f[i] += sign * force[axis];
-            }
-        }
+    gathered(unknowns, &nodal_forces(model, &load.target))
+}
+
+/// The same, line by line, face by face, point by point.
+pub fn nodal_forces(model: &Model, target: &Target) -> Vec<NodalForces> {
+    let on_lines = |lines: &[Border], g: &dyn Fn([f64; 2]) -> [f64; 2]| {
+        let on_line = |line: &Border| NodalForces { nodes: line.nodes.clone(), forces: line_integral(model, line, g) };
+        lines.iter().map(on_line).collect()
     };
-    match &load.target {
-        Target::Pressure { lines } => {
-            for line in lines {
-                let forces = line_integral(model, line, |[tx, ty]| [-ty, tx]);
-                line.nodes.iter().zip(forces).for_each(|(&node, force)| add(node, force));
-            }
-        }
+    match target {
+        Target::Pressure { lines } => on_lines(lines, &|[tx, ty]| [-ty, tx]),
         Target::Traction { lines, direction: [dx, dy] } => {
-            for line in lines {
-                let forces = line_integral(model, line, |[tx, ty]| [dx * tx.hypot(ty), dy * tx.hypot(ty)]);
-                line.nodes.iter().zip(forces).for_each(|(&node, force)| add(node, force));
-            }
+            on_lines(lines, &|[tx, ty]| [dx * tx.hypot(ty), dy * tx.hypot(ty)])
         }
-        Target::BodyForce { cells, direction: [dx, dy] } => {
-            for cell in cells.iter().map(|&c| &model.mesh.cells[c]) {
-                let points = element::points(cell.shape, &corners(model, &cell.nodes), Integral::Mass);
-                for (local, &node) in cell.nodes.iter().enumerate() {
-                    let volume: f64 = points.iter().map(|p| p.n[local] * p.dv).sum();
-                    add(node, [dx * volume, dy * volume]);
-                }
-            }
+        Target::BodyForce { cells, direction } => cells.iter().map(|&c| body_force(model, c, *direction)).collect(),
+        Target::Force { nodes, direction } => {
+            nodes.iter().map(|&node| NodalForces { nodes: vec![node], forces: vec![*direction] }).collect()
         }
-        Target::Force { nodes, direction } => nodes.iter().for_each(|&node| add(node, *direction)),
     }
-    f
 }
 
 /// Weight of all faces, integral of N' rho g dv, downwards [N].
 pub fn gravity(model: &Model, unknowns: &Unknowns) -> Vec<f64> {
+    gathered(unknowns, &weights(model))
+}
+
+/// The weight of each face [N], if there is gravity.
+pub fn weights(model: &Model) -> Vec<NodalForces> {
+    let heavy = model.faces().filter(|_| model.gravity > 0.);
+    heavy.map(|(cell, material)| body_force(model, cell, [0., -material.density * model.gravity])).collect()
+}
+
+/// Integral of N' b dv over a face, b [N/m^3].
+fn body_force(model: &Model, cell: usize, [bx, by]: [f64; 2]) -> NodalForces {
+    let cell = &model.mesh.cells[cell];
+    let points = element::points(cell.shape, &corners(model, &cell.nodes), Integral::Mass);
+    let volume = |local: usize| points.iter().map(|p| p.n[local] * p.dv).sum::<f64>();
+    let forces = (0..cell.nodes.len()).map(|local| [bx * volume(local), by * volume(local)]).collect();
+    NodalForces { nodes: cell.nodes.clone(), forces }
+}
+
+/// f = T' of nodal forces.
+fn gathered(unknowns: &Unknowns, forces: &[NodalForces]) -> Vec<f64> {
     let mut f = vec![0.; unknowns.count];
-    for (cell, material) in model.faces().filter(|_| model.gravity > 0.) {
-        let cell = &model.mesh.cells[cell];
-        let points = element::points(cell.shape, &corners(model, &cell.nodes), Integral::Mass);
-        for (local, &node) in cell.nodes.iter().enumerate() {
-            let weight: f64 = points.iter().map(|p| p.n[local] * material.density * model.gravity * p.dv).sum();
-            for &(i, sign) in unknowns.row(node, 1) {
-                f[i] -= sign * weight;
+    for (node, force) in forces.iter().flat_map(|p| p.nodes.iter().zip(&p.forces)) {
+        for axis in 0..2 {
+            for &(i, sign) in unknowns.row(*node, axis) {
+                f[i] += sign * force[axis];
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Watches a run and writes what it sees: histories, frames, the status file, at the end the summary.
+//! Watches a run and writes what it sees: histories, rings, frames, the status file, at the end the summary.
 
 use super::prepare::Prepared;
 use crate::Result;
@@ -6,6 +6,7 @@ use crate::results::file;
 use crate::results::folder::{Folder, STATUS};
 use crate::results::frame::{Frame, Grid};
 use crate::results::histories::Histories;
+use crate::results::ring::{self, rings};
 use crate::results::series::Series;
 use crate::results::summary::{
     ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
@@ -24,6 +25,7 @@ pub struct Recorder<'a> {
     /// the unknowns in equilibrium under gravity, which displacements are counted from
     origin: Vec<f64>,
     histories: Histories,
+    rings: ring::Table,
     series: Series,
     status: File,
     status_lines: String,
@@ -52,6 +54,10 @@ impl<'a> Recorder<'a> {
         let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
         let mut recorder = Recorder {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
+            rings: ring::Table::create(
+                &folder.file("rings.csv"),
+                rings(&prepared.model, &prepared.system, prepared.rayleigh),
+            )?,
             series: Series::start(folder.path(), folder.name(), Grid::new(&prepared.model))?,
             status,
             status_lines: STATUS_HEADER.into(),
@@ -95,6 +101,7 @@ impl<'a> Recorder<'a> {
 
     fn write_frame(&mut self, state: &State) -> Result<()> {
         self.flush()?;
+        self.rings.record(&self.prepared.model, &self.prepared.system, state, &self.origin)?;
         self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin))
     }
 

@@ -1,0 +1,401 @@
+//! Section forces N, Q, M and hoop stress round a pipe wall, in equilibrium, and what the ground does to it.
+//!
+//! Forces of an element on its nodes' side: p = k (u + beta v) + m (a + alpha v) - loads - joints. On a ray the elements
+//! anticlockwise of it and those clockwise of it hold each other: their sums of p over the ray's nodes are F and -F. Then
+//! N = -F.e_theta, Q = -F.e_r, M = sum of -F.e_theta (r - r_m): tension, sigma_r_theta, and compression of the inner
+//! fibre are positive. What is not told apart by elements (reactions, forces on points, the ground of a bonded pipe) is
+//! shared between the two sides by the lengths of their outer faces.
+
+use super::file;
+use crate::Result;
+use crate::model::case::Quad4;
+use crate::model::mesh::{Cell, Mesh, Shape};
+use crate::model::resolve::Model;
+use crate::model::ring::RingShape;
+use crate::physics::element::{self, Integral};
+use crate::physics::material::Material;
+use crate::solve::assembly;
+use crate::solve::system::{Rayleigh, State, System};
+use nalgebra::{DMatrix, DVector, Matrix3x2, RowDVector, RowVector3, Vector2, Vector3};
+use std::f64::consts::TAU;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// What a ray shows; forces per metre of pipe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// anticlockwise from +x, 0 to 2 pi
+    pub angle: f64,
+    /// [N/m], tension positive
+    pub normal_force: f64,
+    /// [N/m], as sigma_r_theta
+    pub shear_force: f64,
+    /// about the wall's middle [N m/m], positive where the inner fibre is compressed
+    pub moment: f64,
+    /// hoop stress at the inner and at the outer face [Pa]
+    pub hoop: [f64; 2],
+    /// displacement of the outer face along e_r and e_theta [m]
+    pub displacement: [f64; 2],
+    /// traction of the ground on the outer face along e_r and e_theta [Pa]
+    pub traction: [f64; 2],
+}
+
+/// A pipe wall, ready to be asked at any state.
+pub struct Ring {
+    pub body: String,
+    rays: Vec<Ray>,
+    elements: Vec<Element>,
+    rayleigh: Rayleigh,
+}
+
+struct Ray {
+    angle: f64,
+    outer_node: usize,
+    /// of the outer face that the outer node stands for [m^2]
+    area: f64,
+    /// joint points of the outer node
+    joints: Vec<usize>,
+    /// (node, weights of its displacement) [Pa/m]
+    hoop: [Vec<(usize, [f64; 2])>; 2],
+}
+
+struct Element {
+    nodes: Vec<usize>,
+    stiffness: DMatrix<f64>,
+    mass: DMatrix<f64>,
+    weight: DVector<f64>,
+    /// (which of the model, force per unit of its pulse)
+    loads: Vec<(usize, DVector<f64>)>,
+    /// (joint point, node of the element, N)
+    joints: Vec<(usize, usize, f64)>,
+    /// where it ends at a ray
+    ends: Vec<End>,
+}
+
+/// A node that an element has on a ray.
+struct End {
+    local: usize,
+    ray: usize,
+    is_outer: bool,
+    /// force on the element -> its part of (N, Q, M)
+    section: Matrix3x2<f64>,
+}
+
+/// All pipe walls among the bodies of the interfaces; bodies of other shapes have none.
+pub fn rings(model: &Model, system: &System, rayleigh: Rayleigh) -> Vec<Ring> {
+    let groups = model.bodies.iter().filter_map(|body| model.mesh.groups.iter().find(|g| &g.name == body));
+    let shapes = groups
+        .filter(|g| g.dimension == 2)
+        .filter_map(|g| RingShape::find(&model.mesh, &g.cells).map(|shape| (g.name.clone(), shape)));
+    shapes.map(|(body, shape)| Ring::new(body, &shape, model, system, rayleigh)).collect()
+}
+
+impl Ring {
+    fn new(body: String, shape: &RingShape, model: &Model, system: &System, rayleigh: Rayleigh) -> Ring {
+        let lengths = outer_lengths(shape, &model.mesh);
+        let mut elements: Vec<Element> =
+            shape.sectors.iter().map(|&(cell, sector)| element(shape, model, &lengths, cell, sector)).collect();
+        add_loads(&mut elements, model);
+        add_joints(&mut elements, shape, model, system);
+        let samples = samples(shape, model);
+        let ray = |(i, ray): (usize, &crate::model::ring::Ray)| {
+            let outer_node = ray.nodes[ray.nodes.len() - 1];
+            let points =
+                elements.iter().flat_map(|e| e.joints.iter().map(|&(point, local, _)| (point, e.nodes[local])));
+            let mut joints: Vec<usize> = points.filter(|&(_, n)| n == outer_node).map(|(point, _)| point).collect();
+            joints.sort_unstable();
+            let before = lengths[(i + lengths.len() - 1) % lengths.len()];
+            let (inner, outer) = shape.faces();
+            Ray {
+                angle: ray.angle,
+                outer_node,
+                area: (before.length + lengths[i].length) * lengths[i].corner_share,
+                joints,
+                hoop: [inner, outer].map(|r| hoop_at(shape, &samples, i, r)),
+            }
+        };
+        Ring { body, rays: shape.rays.iter().enumerate().map(ray).collect(), elements, rayleigh }
+    }
+
+    /// Section forces at every ray, anticlockwise; `origin`: the unknowns that displacements are counted from.
+    pub fn sections(&self, model: &Model, system: &System, state: &State, origin: &[f64]) -> Vec<Section> {
+        let mut forces = vec![Vector3::zeros(); self.rays.len()];
+        let mut outside = vec![Vector2::zeros(); self.rays.len()];
+        for element in &self.elements {
+            let p = element.force(model, system, state, self.rayleigh);
+            let joints = element.joint_force(system, state);
+            for end in &element.ends {
+                let at = |x: &DVector<f64>| Vector2::new(x[2 * end.local], x[2 * end.local + 1]);
+                forces[end.ray] += end.section * (at(&p) - at(&joints));
+                if end.is_outer {
+                    outside[end.ray] += at(&p);
+                }
+            }
+        }
+        let section = |(i, ray): (usize, &Ray)| {
+            let [radial, along] = axes(ray.angle);
+            let at = |q: &[f64]| Vector2::from(system.unknowns.at_node(q, ray.outer_node));
+            let moved = at(&state.q) - at(origin);
+            Section {
+                angle: ray.angle,
+                normal_force: forces[i][0],
+                shear_force: forces[i][1],
+                moment: forces[i][2],
+                hoop: [0, 1].map(|face| ray.hoop_stress(face, system, state)),
+                displacement: [moved.dot(&radial), moved.dot(&along)],
+                traction: ray.traction(system, state).unwrap_or([radial, along].map(|e| e.dot(&outside[i]) / ray.area)),
+            }
+        };
+        self.rays.iter().enumerate().map(section).collect()
+    }
+}
+
+impl Element {
+    /// k (u + beta v) + m (a + alpha v) - loads [N].
+    fn force(&self, model: &Model, system: &System, state: &State, Rayleigh { alpha, beta }: Rayleigh) -> DVector<f64> {
+        let [u, v, a] = [&state.q, &state.v, &state.a].map(|x| {
+            DVector::from_iterator(2 * self.nodes.len(), self.nodes.iter().flat_map(|&n| system.unknowns.at_node(x, n)))
+        });
+        let loads = self.loads.iter().map(|(load, force)| force * model.loads[*load].pulse.at(state.time));
+        let inner = &self.stiffness * (u + &v * beta) + &self.mass * (a + v * alpha);
+        loads.fold(inner - &self.weight, |p, load| p - load)
+    }
+
+    /// Sum of N area R' t over its joint points [N].
+    fn joint_force(&self, system: &System, state: &State) -> DVector<f64> {
+        let mut force = DVector::zeros(2 * self.nodes.len());
+        for &(point, local, n) in &self.joints {
+            let at = &system.interface.points[point];
+            let part = at.rotation().transpose() * state.joints[point].traction * (n * at.area);
+            force[2 * local] += part[0];
+            force[2 * local + 1] += part[1];
+        }
+        force
+    }
+}
+
+impl Ray {
+    fn hoop_stress(&self, face: usize, system: &System, state: &State) -> f64 {
+        let at = |node: usize| system.unknowns.at_node(&state.q, node);
+        self.hoop[face].iter().map(|&(node, [x, y])| x * at(node)[0] + y * at(node)[1]).sum()
+    }
+
+    /// (sigma_n, tau) of its joint points, their mean; none if it has no joints.
+    fn traction(&self, system: &System, state: &State) -> Option<[f64; 2]> {
+        let area = |p: &usize| system.interface.points[*p].area;
+        let mean = |k: usize| {
+            let sum: f64 = self.joints.iter().map(|p| area(p) * state.joints[*p].traction[k]).sum();
+            sum / self.joints.iter().map(area).sum::<f64>()
+        };
+        (!self.joints.is_empty()).then(|| [mean(1), mean(0)])
+    }
+}
+
+/// (e_r, e_theta).
+fn axes(angle: f64) -> [Vector2<f64>; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [Vector2::new(cos, sin), Vector2::new(-sin, cos)]
+}
+
+/// The outer face of a sector.
+#[derive(Clone, Copy)]
+struct OuterFace {
+    /// times 1 m of depth [m^2]
+    length: f64,
+    /// part of it that a corner node stands for: 1/2, with a mid-side node 1/6 (Simpson)
+    corner_share: f64,
+}
+
+fn outer_lengths(shape: &RingShape, mesh: &Mesh) -> Vec<OuterFace> {
+    let outer: Vec<usize> = shape.rays.iter().map(|ray| ray.nodes[ray.nodes.len() - 1]).collect();
+    let mut faces = vec![OuterFace { length: 0., corner_share: 0.5 }; outer.len()];
+    for &(cell, sector) in &shape.sectors {
+        let nodes = &mesh.cells[cell].nodes;
+        for side in mesh.cells[cell].shape.sides() {
+            if [nodes[side[0]], nodes[side[1]]] == [outer[sector], outer[shape.after(sector)]] {
+                let line = if side.len() == 3 { Shape::Line3 } else { Shape::Line2 };
+                let line = Cell { shape: line, nodes: side.iter().map(|&local| nodes[local]).collect() };
+                let corner_share = if side.len() == 3 { 1. / 6. } else { 0.5 };
+                faces[sector] = OuterFace { length: mesh.measure(&line), corner_share };
+            }
+        }
+    }
+    faces
+}
+
+fn element(shape: &RingShape, model: &Model, lengths: &[OuterFace], cell: usize, sector: usize) -> Element {
+    let material = material_of(model, cell);
+    let (stiffness, mass) = assembly::of_face(model, cell, &material);
+    let face = &model.mesh.cells[cell];
+    let (inner, outer) = shape.faces();
+    let mut ends = Vec::new();
+    for (ray, sign) in [(sector, 1.), (shape.after(sector), -1.)] {
+        let before = lengths[(ray + lengths.len() - 1) % lengths.len()].length;
+        let share = [before, lengths[ray].length].map(|l| l / (before + lengths[ray].length));
+        // N = -F.e_theta with F = (1 - w) F_after - w F_before, w the share of the outer face after the ray
+        let factor = -sign * if sign > 0. { share[0] } else { share[1] };
+        let [radial, along] = axes(shape.rays[ray].angle);
+        for local in on_ray(face, &shape.rays[ray].nodes) {
+            let [x, y] = model.mesh.points[face.nodes[local]];
+            let r = (x - shape.centre[0]).hypot(y - shape.centre[1]);
+            let arm = r - (inner + outer) / 2.;
+            let rows = [along.transpose(), radial.transpose(), along.transpose() * arm];
+            let is_outer = face.nodes[local] == shape.rays[ray].nodes[shape.radii.len() - 1];
+            ends.push(End { local, ray, is_outer, section: Matrix3x2::from_rows(&rows) * factor });
+        }
+    }
+    let weight = DVector::zeros(2 * face.nodes.len());
+    Element { nodes: face.nodes.clone(), stiffness, mass, weight, loads: vec![], joints: vec![], ends }
+}
+
+/// Local nodes on a ray: corners, and the mid-sides between two of them.
+fn on_ray(face: &Cell, ray: &[usize]) -> Vec<usize> {
+    let is_on = |local: &usize| ray.contains(&face.nodes[*local]);
+    let corners = (0..face.shape.corner_count()).filter(is_on);
+    let sides = face.shape.sides();
+    let middles = sides.iter().filter(|s| s.len() == 3 && is_on(&s[0]) && is_on(&s[1])).map(|s| s[2]);
+    corners.chain(middles).collect()
+}
+
+fn material_of(model: &Model, cell: usize) -> Material {
+    model.material_of[cell].map(|m| model.materials[m].1).expect("every face has a material")
+}
+
+/// Gives each element its weight and the loads that act on it or on one of its sides.
+fn add_loads(elements: &mut [Element], model: &Model) {
+    let add = |elements: &mut [Element], forces: &assembly::NodalForces, put: &dyn Fn(&mut Element, DVector<f64>)| {
+        let holds_all = |e: &&mut Element| forces.nodes.iter().all(|n| e.nodes.contains(n));
+        if let Some(element) = elements.iter_mut().find(holds_all).filter(|_| forces.nodes.len() > 1) {
+            let mut vector = DVector::zeros(2 * element.nodes.len());
+            for (node, force) in forces.nodes.iter().zip(&forces.forces) {
+                let local = element.nodes.iter().position(|n| n == node).expect("it holds all");
+                vector[2 * local] += force[0];
+                vector[2 * local + 1] += force[1];
+            }
+            put(element, vector);
+        }
+    };
+    for forces in assembly::weights(model) {
+        add(elements, &forces, &|element, weight| element.weight += weight);
+    }
+    for (number, load) in model.loads.iter().enumerate() {
+        for forces in assembly::nodal_forces(model, &load.target) {
+            add(elements, &forces, &|element, force| element.loads.push((number, force)));
+        }
+    }
+}
+
+fn add_joints(elements: &mut [Element], shape: &RingShape, model: &Model, system: &System) {
+    for (number, point) in system.interface.points.iter().enumerate() {
+        let body_cell = model.joints[point.joint].body_cell;
+        let Some(i) = shape.sectors.iter().position(|&(cell, _)| cell == body_cell) else { continue };
+        for &(pair, n) in &point.share {
+            let local = elements[i].nodes.iter().position(|&node| node == model.pairs[pair].body);
+            elements[i].joints.extend(local.map(|local| (number, local, n)));
+        }
+    }
+}
+
+/// sigma_theta = row u at a point of an element.
+struct Sample {
+    sector: usize,
+    radius: f64,
+    angle: f64,
+    nodes: Vec<usize>,
+    /// [Pa/m]
+    row: RowDVector<f64>,
+}
+
+/// The best points of each element: its centre, with mid-sides 2 x 2 Gauss points or the three of T6.
+fn samples(shape: &RingShape, model: &Model) -> Vec<Sample> {
+    let in_face = |&(cell, sector): &(usize, usize)| {
+        let face = &model.mesh.cells[cell];
+        let material = material_of(model, cell);
+        let at: Vec<[f64; 2]> = face.nodes.iter().map(|&n| model.mesh.points[n]).collect();
+        let b_bar = face.shape == Shape::Quad4 && model.quad4 == Quad4::BBar;
+        let mean = b_bar.then(|| element::mean_dilatation(&element::points(face.shape, &at, Integral::Stiffness)));
+        let points = best_points(face.shape).into_iter().map(|place| element::point(face.shape, &at, place, 1.));
+        let sample = |p: element::Point| {
+            let [x, y] = [p.at[0] - shape.centre[0], p.at[1] - shape.centre[1]];
+            let angle = y.atan2(x);
+            // sigma_theta = e_theta' sigma e_theta
+            let (sin, cos) = angle.sin_cos();
+            let hoop = RowVector3::new(sin * sin, cos * cos, -2. * sin * cos);
+            let stress = match &mean {
+                None => material.plane_strain() * p.b(),
+                Some(mean) => material.deviatoric() * p.b() + Vector3::new(1., 1., 0.) * mean * material.bulk_modulus(),
+            };
+            Sample { sector, radius: x.hypot(y), angle, nodes: face.nodes.clone(), row: hoop * stress }
+        };
+        points.map(sample).collect::<Vec<_>>()
+    };
+    shape.sectors.iter().flat_map(in_face).collect()
+}
+
+fn best_points(shape: Shape) -> Vec<[f64; 2]> {
+    match shape {
+        Shape::Tri3 => vec![[1. / 3., 1. / 3.]],
+        Shape::Tri6 => vec![[1. / 6., 1. / 6.], [2. / 3., 1. / 6.], [1. / 6., 2. / 3.]],
+        Shape::Quad8 => element::gauss_2().iter().flat_map(|(r, _)| element::gauss_2().map(|(s, _)| [*r, s])).collect(),
+        _ => vec![[0., 0.]],
+    }
+}
+
+/// Least squares over the two sectors on either side of a ray, a polynomial in r (cubic, or one degree less than there
+/// are places) times a square one in theta, taken at the ray and a face: weights of the displacements.
+fn hoop_at(shape: &RingShape, samples: &[Sample], ray: usize, radius: f64) -> Vec<(usize, [f64; 2])> {
+    let rays = shape.rays.len();
+    let near: Vec<&Sample> = samples.iter().filter(|s| (s.sector + rays + 2 - ray) % rays < 4).collect();
+    let (inner, outer) = shape.faces();
+    let places = (shape.radii.len() - 1) * if near[0].nodes.len() > 4 { 2 } else { 1 };
+    let degree = (places - 1).min(MAX_DEGREE) as i32;
+    let term = |k: usize, r: f64, angle: f64| {
+        let s = (2. * r - inner - outer) / (outer - inner);
+        let x = (angle + TAU / 2.).rem_euclid(TAU) - TAU / 2.;
+        s.powi(k as i32 / 3) * (x * rays as f64 / TAU).powi(k as i32 % 3)
+    };
+    let terms = 3 * (degree as usize + 1);
+    let fit =
+        DMatrix::from_fn(near.len(), terms, |i, k| term(k, near[i].radius, near[i].angle - shape.rays[ray].angle));
+    let at_face = RowDVector::from_fn(terms, |_, k| term(k, radius, 0.));
+    let Ok(inverse) = fit.pseudo_inverse(1e-10) else { return vec![] };
+    let weights = at_face * inverse;
+    let of_sample = |(s, weight): (&&Sample, &f64)| {
+        let row = &s.row * *weight;
+        s.nodes.iter().enumerate().map(move |(i, &n)| (n, [row[2 * i], row[2 * i + 1]])).collect::<Vec<_>>()
+    };
+    near.iter().zip(weights.iter()).flat_map(of_sample).collect()
+}
+
+const MAX_DEGREE: usize = 3;
+
+/// `rings.csv`, a line for every ray of every ring at every frame, written in whole lines.
+pub struct Table {
+    path: PathBuf,
+    file: File,
+    waiting: String,
+    rings: Vec<Ring>,
+}
+
+impl Table {
+    pub fn create(path: &Path, rings: Vec<Ring>) -> Result<Table> {
+        let file = File::create(path).map_err(|e| file::not_written(path, &e))?;
+        let header = "t,body,angle_deg,N,Q,M,hoop_inner,hoop_outer,u_r,u_t,sigma_n,tau\n";
+        Ok(Table { path: path.into(), file, waiting: header.into(), rings })
+    }
+
+    /// `origin`: the unknowns that displacements are counted from.
+    pub fn record(&mut self, model: &Model, system: &System, state: &State, origin: &[f64]) -> Result<()> {
+        for ring in &self.rings {
+            for s in ring.sections(model, system, state, origin) {
+                let forces = [s.normal_force, s.shear_force, s.moment];
+                let numbers = forces.iter().chain(&s.hoop).chain(&s.displacement).chain(&s.traction);
+                let numbers: String = numbers.map(|x| format!(",{x:e}")).collect();
+                self.waiting += &format!("{:e},{},{}{numbers}\n", state.time, ring.body, s.angle.to_degrees());
+            }
+        }
+        let lines = std::mem::take(&mut self.waiting);
+        self.file.write_all(lines.as_bytes()).map_err(|e| file::not_written(&self.path, &e))
+    }
+}
