@@ -71,6 +71,25 @@ impl Mesh {
         }
     }
 
+    /// The group of that name if it is of that dimension; `what` is the role it was given, for the sentence.
+    pub fn group_of(&self, name: &str, dimension: usize, what: &str) -> Result<&Group> {
+        const KIND: [&str; 3] = ["points", "curves", "surfaces"];
+        let group = self.group(name).map_err(|e| Error::input(format!("{what} \"{name}\": {e}")))?;
+        match group.dimension == dimension {
+            true => Ok(group),
+            false => Err(Error::input(format!(
+                "{what} \"{name}\" needs a group of {}; in {} it is one of {}",
+                KIND[dimension], self.name, KIND[group.dimension]
+            ))),
+        }
+    }
+
+    /// Where a cell lies, for messages.
+    pub fn place(&self, cell: usize) -> String {
+        let [x, y] = self.centroid(&self.cells[cell]);
+        format!("({x:.4}, {y:.4}) m")
+    }
+
     /// The nodes of the group's cells, mid-side nodes too, each once, ascending.
     pub fn nodes_of(&self, group: &Group) -> Vec<usize> {
         let mut nodes: Vec<usize> = group.cells.iter().flat_map(|&c| self.cells[c].nodes.iter().copied()).collect();

@@ -1,9 +1,11 @@
 //! What is to be solved: the mesh, the case file, and the two joined by the names of the groups.
 
+pub mod boundary;
 pub mod case;
 pub mod mesh;
 pub mod msh;
 mod plane;
+pub mod probes;
 pub mod quality;
 pub mod resolve;
 pub mod ring;

@@ -1,7 +1,9 @@
 //! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
 
-use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Probe, Quad4, Start};
-use super::mesh::{Group, Mesh};
+use super::boundary::{Border, border, solid_sides};
+use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
+use super::mesh::Mesh;
+use super::probes::{NodeProbe, probes};
 use super::quality;
 use super::split::{self, Joint, Pair, Seam};
 use crate::physics::joint::{Friction, JointLaw};
@@ -9,7 +11,7 @@ use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
 use crate::physics::shape::Shape;
 use crate::{Error, Result};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 /// Everything the equations need, by index.
 #[derive(Debug, Clone)]
@@ -86,20 +88,6 @@ pub enum Target {
     Force { nodes: Vec<usize>, direction: [f64; 2] },
 }
 
-/// A line on the border of the mesh, with the solid on its left.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Border {
-    pub shape: Shape,
-    pub nodes: Vec<usize>,
-}
-
-/// A node whose motion is written at every step.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NodeProbe {
-    pub name: String,
-    pub node: usize,
-}
-
 impl Model {
     /// `bonded` leaves the interfaces closed: pipe and ground share their nodes.
     ///
@@ -168,12 +156,12 @@ fn materials(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Result<Mat
             warnings.push(format!("material \"{name}\" is not used: {} has no such group", mesh.name));
             continue;
         }
-        for &cell in &of_dimension(mesh, name, 2, "material")?.cells {
+        for &cell in &mesh.group_of(name, 2, "material")?.cells {
             if let Some(other) = material_of[cell].replace(materials.len()) {
                 let (other, _): &(String, Material) = &materials[other];
                 return Err(Error::input(format!(
                     "the surface at {} belongs to both \"{other}\" and \"{name}\": give each surface one material",
-                    place(mesh, cell)
+                    mesh.place(cell)
                 )));
             }
         }
@@ -197,7 +185,7 @@ fn no_material(case: &Case, mesh: &Mesh, cell: usize) -> Error {
     let given: Vec<&str> = case.materials.keys().map(String::as_str).collect();
     Error::input(format!(
         "the surface at {}, {whose}, has no material; materials are given for: {}",
-        place(mesh, cell),
+        mesh.place(cell),
         given.join(", ")
     ))
 }
@@ -282,7 +270,7 @@ fn initial(case: &Case, mesh: &Mesh) -> Result<Initial> {
 fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
     let sides = solid_sides(mesh);
     let load = |(name, load): (&str, &case::Load)| {
-        let group = |dimension| of_dimension(mesh, name, dimension, "load");
+        let group = |dimension| mesh.group_of(name, dimension, "load");
         let lines = || Ok(border(mesh, group(1)?, &sides)?.into_iter().map(|(line, _)| line).collect());
         let target = match load {
             case::Load::Pressure(_) => Target::Pressure { lines: lines()? },
@@ -293,20 +281,6 @@ fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
         Ok(Load { group: name.to_string(), pulse: load.pulse().clone(), target })
     };
     case.loads.iter().map(load).collect()
-}
-
-/// Every side of every face with that face, running anticlockwise, by its corners; twice where two faces share it.
-type Sides = HashMap<(usize, usize), Vec<(usize, Vec<usize>)>>;
-
-fn solid_sides(mesh: &Mesh) -> Sides {
-    let mut sides = Sides::new();
-    for (cell, face) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
-        for side in face.shape.sides() {
-            let nodes: Vec<usize> = side.iter().map(|&local| face.nodes[local]).collect();
-            sides.entry((nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).or_default().push((cell, nodes));
-        }
-    }
-    sides
 }
 
 /// Viscous lines with the material behind them; a support there would hold what the dashpots should let move.
@@ -324,89 +298,13 @@ fn dashpots(
                 "\"{name}\" stands in both boundaries and supports: a viscous curve cannot be held; take it out of one"
             )));
         }
-        let group = of_dimension(mesh, name, 1, "boundary")?;
+        let group = mesh.group_of(name, 1, "boundary")?;
         for (line, face) in border(mesh, group, &sides)? {
             let material = material_of[face].expect("every face has a material by now");
             dashpots.push((line, materials[material].1));
         }
     }
     Ok(dashpots)
-}
-
-/// The group's lines with the solid on their left, and that solid's face; each must have a face on exactly one side.
-fn border(mesh: &Mesh, group: &Group, sides: &Sides) -> Result<Vec<(Border, usize)>> {
-    let oriented = |&cell: &usize| {
-        let nodes = &mesh.cells[cell].nodes;
-        match sides.get(&(nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).map(Vec::as_slice) {
-            Some([(face, side)]) => Ok((Border { shape: mesh.cells[cell].shape, nodes: side.clone() }, *face)),
-            found => Err(Error::input(format!(
-                "load or boundary \"{}\": its line at {} has {} on its sides; it must lie on the border of the mesh",
-                group.name,
-                place(mesh, cell),
-                if found.is_some() { "a surface on both" } else { "no surface" },
-            ))),
-        }
-    };
-    group.cells.iter().map(oriented).collect()
-}
-
-fn probes(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Result<Vec<NodeProbe>> {
-    let mut names = HashSet::new();
-    let mut probes = Vec::new();
-    for probe in &case.probes {
-        let name = probe.name().to_string();
-        if !names.insert(name.clone()) {
-            return Err(Error::input(format!("probe \"{name}\" stands twice in probes: each needs its own name")));
-        }
-        let node = match probe {
-            Probe::Group(group) => named_point(mesh, group)?,
-            Probe::Place { at, body, .. } => nearest_node(mesh, &name, *at, body.as_deref(), warnings)?,
-        };
-        probes.push(NodeProbe { name, node });
-    }
-    Ok(probes)
-}
-
-fn named_point(mesh: &Mesh, name: &str) -> Result<usize> {
-    let group = of_dimension(mesh, name, 0, "probe")?;
-    match mesh.nodes_of(group)[..] {
-        [node] => Ok(node),
-        ref nodes => Err(Error::input(format!(
-            "probe \"{name}\" must be one point; the group has {} points in {}",
-            nodes.len(),
-            mesh.name
-        ))),
-    }
-}
-
-fn nearest_node(
-    mesh: &Mesh,
-    name: &str,
-    at: [f64; 2],
-    body: Option<&str>,
-    warnings: &mut Vec<String>,
-) -> Result<usize> {
-    let mut nodes = match body {
-        Some(body) => mesh.nodes_of(of_dimension(mesh, body, 2, "probe body")?),
-        None => {
-            let faces = mesh.cells.iter().filter(|c| c.shape.dimension() == 2);
-            faces.flat_map(|c| c.nodes.iter().copied()).collect()
-        }
-    };
-    nodes.sort_unstable();
-    let distance = |&n: &usize| (mesh.points[n][0] - at[0]).hypot(mesh.points[n][1] - at[1]);
-    let nearest = nodes.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let node = nearest.ok_or_else(|| Error::input(format!("probe \"{name}\": {} has no nodes", mesh.name)))?;
-    if distance(&node) > 1e-9 {
-        let [x, y] = mesh.points[node];
-        warnings.push(format!(
-            "probe \"{name}\" at ({}, {}) m is taken at the nearest node, ({x:.4}, {y:.4}) m, {:.3} m away",
-            at[0],
-            at[1],
-            distance(&node)
-        ));
-    }
-    Ok(node)
 }
 
 /// More steps than any machine has time for.
@@ -450,21 +348,4 @@ fn unused_groups(case: &Case, mesh: &Mesh) -> Option<String> {
     let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !is_used(&g.name));
     let names: Vec<&str> = unused.map(|g| g.name.as_str()).collect();
     (!names.is_empty()).then(|| format!("groups of {} that the case does not use: {}", mesh.name, names.join(", ")))
-}
-
-fn of_dimension<'a>(mesh: &'a Mesh, name: &str, dimension: usize, what: &str) -> Result<&'a Group> {
-    const KIND: [&str; 3] = ["points", "curves", "surfaces"];
-    let group = mesh.group(name).map_err(|e| Error::input(format!("{what} \"{name}\": {e}")))?;
-    match group.dimension == dimension {
-        true => Ok(group),
-        false => Err(Error::input(format!(
-            "{what} \"{name}\" needs a group of {}; in {} it is one of {}",
-            KIND[dimension], mesh.name, KIND[group.dimension]
-        ))),
-    }
-}
-
-fn place(mesh: &Mesh, cell: usize) -> String {
-    let [x, y] = mesh.centroid(&mesh.cells[cell]);
-    format!("({x:.4}, {y:.4}) m")
 }

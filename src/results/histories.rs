@@ -2,7 +2,7 @@
 
 use super::file;
 use crate::Result;
-use crate::model::resolve::NodeProbe;
+use crate::model::probes::NodeProbe;
 use crate::solve::system::State;
 use crate::solve::unknowns::Unknowns;
 use serde::Serialize;

@@ -1,8 +1,9 @@
 //! From elements to the matrices and load vectors of the unknowns: K = sum T' k T.
 
 use super::unknowns::Unknowns;
+use crate::model::boundary::Border;
 use crate::model::case::{Mass, Quad4};
-use crate::model::resolve::{Border, Load, Model, Target};
+use crate::model::resolve::{Load, Model, Target};
 use crate::physics::element::{self, Integral};
 use crate::physics::material::Material;
 use crate::physics::shape::Shape;

@@ -176,7 +176,7 @@ const STATUS_HEADER: &str = "#  step       t [s]    dt [s] iter  eq.(19)   open 
                              joint     damping    boundary    friction     contact    residual left [s]\n";
 
 fn probe_places(prepared: &Prepared) -> Vec<ProbePlace> {
-    let place = |p: &crate::model::resolve::NodeProbe| {
+    let place = |p: &crate::model::probes::NodeProbe| {
         let [x, y] = prepared.model.mesh.points[p.node];
         ProbePlace { name: p.name.clone(), node: p.node, x, y }
     };

@@ -1,0 +1,72 @@
+//! The nodes whose motion is written: named points, or the nodes nearest to a place.
+
+use super::case::{Case, Probe};
+use super::mesh::Mesh;
+use crate::{Error, Result};
+use std::collections::HashSet;
+
+/// A node whose motion is written at every step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeProbe {
+    pub name: String,
+    pub node: usize,
+}
+
+pub fn probes(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Result<Vec<NodeProbe>> {
+    let mut names = HashSet::new();
+    let mut probes = Vec::new();
+    for probe in &case.probes {
+        let name = probe.name().to_string();
+        if !names.insert(name.clone()) {
+            return Err(Error::input(format!("probe \"{name}\" stands twice in probes: each needs its own name")));
+        }
+        let node = match probe {
+            Probe::Group(group) => named_point(mesh, group)?,
+            Probe::Place { at, body, .. } => nearest_node(mesh, &name, *at, body.as_deref(), warnings)?,
+        };
+        probes.push(NodeProbe { name, node });
+    }
+    Ok(probes)
+}
+
+fn named_point(mesh: &Mesh, name: &str) -> Result<usize> {
+    let group = mesh.group_of(name, 0, "probe")?;
+    match mesh.nodes_of(group)[..] {
+        [node] => Ok(node),
+        ref nodes => Err(Error::input(format!(
+            "probe \"{name}\" must be one point; the group has {} points in {}",
+            nodes.len(),
+            mesh.name
+        ))),
+    }
+}
+
+fn nearest_node(
+    mesh: &Mesh,
+    name: &str,
+    at: [f64; 2],
+    body: Option<&str>,
+    warnings: &mut Vec<String>,
+) -> Result<usize> {
+    let mut nodes = match body {
+        Some(body) => mesh.nodes_of(mesh.group_of(body, 2, "probe body")?),
+        None => {
+            let faces = mesh.cells.iter().filter(|c| c.shape.dimension() == 2);
+            faces.flat_map(|c| c.nodes.iter().copied()).collect()
+        }
+    };
+    nodes.sort_unstable();
+    let distance = |&n: &usize| (mesh.points[n][0] - at[0]).hypot(mesh.points[n][1] - at[1]);
+    let nearest = nodes.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let node = nearest.ok_or_else(|| Error::input(format!("probe \"{name}\": {} has no nodes", mesh.name)))?;
+    if distance(&node) > 1e-9 {
+        let [x, y] = mesh.points[node];
+        warnings.push(format!(
+            "probe \"{name}\" at ({}, {}) m is taken at the nearest node, ({x:.4}, {y:.4}) m, {:.3} m away",
+            at[0],
+            at[1],
+            distance(&node)
+        ));
+    }
+    Ok(node)
+}
