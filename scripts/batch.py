@@ -78,20 +78,28 @@ def rules(variants):
 
 
 def last_words(folder):
-    """Why there is no result: the last line of the variant's log."""
+    """The last line of the variant's log."""
     log = folder / "batch.log"
     lines = log.read_text().splitlines() if log.exists() else []
     return lines[-1].removeprefix("coralpipe: ") if lines else "not made yet"
+
+
+def is_done(folder):
+    """Whether the result is there, and is not what an earlier geometry gave before this one failed to mesh."""
+    summary, log = folder / "summary.json", folder / "batch.log"
+    if not summary.exists() or DONE not in summary.read_text():
+        return False
+    failed_since = log.exists() and log.stat().st_mtime > summary.stat().st_mtime
+    return not failed_since or last_words(folder).startswith("results in")
 
 
 def row(variant):
     """{column: value}; without a result only what was asked for, and why."""
     folder = pathlib.Path("output", variant.name)
     asked = {"variant": variant.name, "status": "done", "case": variant.case, **variant.values}
-    summary_file = folder / "summary.json"
-    if not summary_file.exists() or DONE not in summary_file.read_text():
+    if not is_done(folder):
         return {**asked, "status": last_words(folder)}
-    summary = json.loads(summary_file.read_text())
+    summary = json.loads((folder / "summary.json").read_text())
     contact = summary["contact"]
     frequencies = dict(zip(("f1", "f2"), summary["frequencies_hz"]))
     peaks = {f"{probe}.{c}": of[c]["value"] for probe, of in summary["peaks"].items() for c in of}
@@ -100,7 +108,7 @@ def row(variant):
 
 def table(variants):
     rows = [row(v) for v in variants]
-    columns = list(dict.fromkeys(column for r in [*rows] for column in r))
+    columns = list(dict.fromkeys(column for r in rows for column in r))
     text = io.StringIO()
     writer = csv.DictWriter(text, columns, lineterminator="\n")
     writer.writeheader()

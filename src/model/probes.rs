@@ -3,7 +3,6 @@
 use super::case::{Case, Probe};
 use super::mesh::Mesh;
 use crate::{Error, Result};
-use std::collections::HashSet;
 
 /// A node whose motion is written at every step.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,13 +12,9 @@ pub struct NodeProbe {
 }
 
 pub fn probes(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Result<Vec<NodeProbe>> {
-    let mut names = HashSet::new();
     let mut probes = Vec::new();
     for probe in &case.probes {
         let name = probe.name().to_string();
-        if !names.insert(name.clone()) {
-            return Err(Error::input(format!("probe \"{name}\" stands twice in probes: each needs its own name")));
-        }
         let node = match probe {
             Probe::Group(group) => named_point(mesh, group)?,
             Probe::Place { at, body, .. } => nearest_node(mesh, &name, *at, body.as_deref(), warnings)?,

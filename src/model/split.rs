@@ -203,7 +203,10 @@ fn move_lines_and_points(mesh: &Mesh, opened: &mut Mesh, faces_at: &HashMap<Edge
                 opened.cells[c].nodes = cell.nodes.iter().map(|n| *body_node.get(n).unwrap_or(n)).collect();
                 continue;
             }
-            1 => faces_at.get(&edge(cell.nodes[0], cell.nodes[1])).and_then(|f| f.first()),
+            // The body's side where there are two, as for points.
+            1 => faces_at
+                .get(&edge(cell.nodes[0], cell.nodes[1]))
+                .and_then(|faces| faces.iter().find(|&&f| copies.contains_key(&(f, cell.nodes[0]))).or(faces.first())),
             _ => None,
         };
         if let Some(&face) = follows {

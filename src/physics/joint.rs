@@ -82,9 +82,10 @@ impl JointLaw {
             Friction::Tresca(bound) => (bound, 0.),
         };
         let trial = self.tangential_stiffness * (jump[0] - slip);
-        let sticks = trial.abs() <= limit;
-        let tau = if sticks { trial } else { limit.copysign(trial) };
         let closed = opening <= 0.;
+        // An open joint under Coulomb's law has no limit to stick within, not even where trial = 0.
+        let sticks = trial.abs() <= limit && (closed || limit > 0.);
+        let tau = if sticks { trial } else { limit.copysign(trial) };
         let kn = if closed { self.normal_stiffness } else { 0. };
         let tangent = match (sticks, closed) {
             (true, _) => Matrix2::new(self.tangential_stiffness, 0., 0., kn),
@@ -164,6 +165,7 @@ mod tests {
     fn an_open_joint_forgets_its_slip_and_remembers_its_gap() {
         let open = LAW.respond(Vector2::new(0.5, 0.2), 0.);
         assert_eq!(open.slip, 0.5);
+        assert_eq!(LAW.respond(Vector2::new(0.5, 0.2), 0.5).tangent, Matrix2::zeros());
         assert_eq!(LAW.respond(Vector2::new(0.5, -0.1), open.slip).traction, Vector2::new(0., -1.));
         let apart = JointLaw { gap: 0.2, ..LAW };
         assert_eq!(apart.respond(Vector2::new(0., -0.1), 0.).status, Status::Open);

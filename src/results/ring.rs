@@ -6,21 +6,14 @@
 //! fibre are positive. What is not told apart by elements (reactions, forces on points, the ground of a bonded pipe) is
 //! shared between the two sides by the lengths of their outer faces.
 
-use super::file;
-use crate::Result;
-use crate::model::case::Quad4;
+use super::hoop::{self, Weights};
 use crate::model::mesh::{Cell, Mesh, Shape};
 use crate::model::resolve::Model;
 use crate::model::ring::RingShape;
-use crate::physics::element::{self, Integral};
 use crate::physics::material::Material;
 use crate::solve::assembly;
 use crate::solve::system::{Rayleigh, State, System};
-use nalgebra::{DMatrix, DVector, Matrix3x2, RowDVector, RowVector3, Vector2, Vector3};
-use std::f64::consts::TAU;
-use std::fs::File;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use nalgebra::{DMatrix, DVector, Matrix3x2, Vector2, Vector3};
 
 /// What a ray shows; forces per metre of pipe.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,8 +49,8 @@ struct Ray {
     area: f64,
     /// joint points of the outer node
     joints: Vec<usize>,
-    /// (node, weights of its displacement) [Pa/m]
-    hoop: [Vec<(usize, [f64; 2])>; 2],
+    /// at the inner and the outer face
+    hoop: [Weights; 2],
 }
 
 struct Element {
@@ -98,7 +91,7 @@ impl Ring {
             shape.sectors.iter().map(|&(cell, sector)| element(shape, model, &lengths, cell, sector)).collect();
         add_loads(&mut elements, model);
         add_joints(&mut elements, shape, model, system);
-        let samples = samples(shape, model);
+        let samples = hoop::samples(shape, model);
         let ray = |(i, ray): (usize, &crate::model::ring::Ray)| {
             let outer_node = ray.nodes[ray.nodes.len() - 1];
             let points =
@@ -112,7 +105,7 @@ impl Ring {
                 outer_node,
                 area: (before.length + lengths[i].length) * lengths[i].corner_share,
                 joints,
-                hoop: [inner, outer].map(|r| hoop_at(shape, &samples, i, r)),
+                hoop: [inner, outer].map(|r| hoop::at(shape, &samples, i, r)),
             }
         };
         Ring { body, rays: shape.rays.iter().enumerate().map(ray).collect(), elements, rayleigh }
@@ -258,7 +251,7 @@ fn on_ray(face: &Cell, ray: &[usize]) -> Vec<usize> {
     corners.chain(middles).collect()
 }
 
-fn material_of(model: &Model, cell: usize) -> Material {
+pub(super) fn material_of(model: &Model, cell: usize) -> Material {
     model.material_of[cell].map(|m| model.materials[m].1).expect("every face has a material")
 }
 
@@ -294,108 +287,5 @@ fn add_joints(elements: &mut [Element], shape: &RingShape, model: &Model, system
             let local = elements[i].nodes.iter().position(|&node| node == model.pairs[pair].body);
             elements[i].joints.extend(local.map(|local| (number, local, n)));
         }
-    }
-}
-
-/// sigma_theta = row u at a point of an element.
-struct Sample {
-    sector: usize,
-    radius: f64,
-    angle: f64,
-    nodes: Vec<usize>,
-    /// [Pa/m]
-    row: RowDVector<f64>,
-}
-
-/// The best points of each element: its centre, with mid-sides 2 x 2 Gauss points or the three of T6.
-fn samples(shape: &RingShape, model: &Model) -> Vec<Sample> {
-    let in_face = |&(cell, sector): &(usize, usize)| {
-        let face = &model.mesh.cells[cell];
-        let material = material_of(model, cell);
-        let at: Vec<[f64; 2]> = face.nodes.iter().map(|&n| model.mesh.points[n]).collect();
-        let b_bar = face.shape == Shape::Quad4 && model.quad4 == Quad4::BBar;
-        let mean = b_bar.then(|| element::mean_dilatation(&element::points(face.shape, &at, Integral::Stiffness)));
-        let points = best_points(face.shape).into_iter().map(|place| element::point(face.shape, &at, place, 1.));
-        let sample = |p: element::Point| {
-            let [x, y] = [p.at[0] - shape.centre[0], p.at[1] - shape.centre[1]];
-            let angle = y.atan2(x);
-            // sigma_theta = e_theta' sigma e_theta
-            let (sin, cos) = angle.sin_cos();
-            let hoop = RowVector3::new(sin * sin, cos * cos, -2. * sin * cos);
-            let stress = match &mean {
-                None => material.plane_strain() * p.b(),
-                Some(mean) => material.deviatoric() * p.b() + Vector3::new(1., 1., 0.) * mean * material.bulk_modulus(),
-            };
-            Sample { sector, radius: x.hypot(y), angle, nodes: face.nodes.clone(), row: hoop * stress }
-        };
-        points.map(sample).collect::<Vec<_>>()
-    };
-    shape.sectors.iter().flat_map(in_face).collect()
-}
-
-fn best_points(shape: Shape) -> Vec<[f64; 2]> {
-    match shape {
-        Shape::Tri3 => vec![[1. / 3., 1. / 3.]],
-        Shape::Tri6 => vec![[1. / 6., 1. / 6.], [2. / 3., 1. / 6.], [1. / 6., 2. / 3.]],
-        Shape::Quad8 => element::gauss_2().iter().flat_map(|(r, _)| element::gauss_2().map(|(s, _)| [*r, s])).collect(),
-        _ => vec![[0., 0.]],
-    }
-}
-
-/// Least squares over the two sectors on either side of a ray, a polynomial in r (cubic, or one degree less than there
-/// are places) times a square one in theta, taken at the ray and a face: weights of the displacements.
-fn hoop_at(shape: &RingShape, samples: &[Sample], ray: usize, radius: f64) -> Vec<(usize, [f64; 2])> {
-    let rays = shape.rays.len();
-    let near: Vec<&Sample> = samples.iter().filter(|s| (s.sector + rays + 2 - ray) % rays < 4).collect();
-    let (inner, outer) = shape.faces();
-    let places = (shape.radii.len() - 1) * if near[0].nodes.len() > 4 { 2 } else { 1 };
-    let degree = (places - 1).min(MAX_DEGREE) as i32;
-    let term = |k: usize, r: f64, angle: f64| {
-        let s = (2. * r - inner - outer) / (outer - inner);
-        let x = (angle + TAU / 2.).rem_euclid(TAU) - TAU / 2.;
-        s.powi(k as i32 / 3) * (x * rays as f64 / TAU).powi(k as i32 % 3)
-    };
-    let terms = 3 * (degree as usize + 1);
-    let fit =
-        DMatrix::from_fn(near.len(), terms, |i, k| term(k, near[i].radius, near[i].angle - shape.rays[ray].angle));
-    let at_face = RowDVector::from_fn(terms, |_, k| term(k, radius, 0.));
-    let Ok(inverse) = fit.pseudo_inverse(1e-10) else { return vec![] };
-    let weights = at_face * inverse;
-    let of_sample = |(s, weight): (&&Sample, &f64)| {
-        let row = &s.row * *weight;
-        s.nodes.iter().enumerate().map(move |(i, &n)| (n, [row[2 * i], row[2 * i + 1]])).collect::<Vec<_>>()
-    };
-    near.iter().zip(weights.iter()).flat_map(of_sample).collect()
-}
-
-const MAX_DEGREE: usize = 3;
-
-/// `rings.csv`, a line for every ray of every ring at every frame, written in whole lines.
-pub struct Table {
-    path: PathBuf,
-    file: File,
-    waiting: String,
-    rings: Vec<Ring>,
-}
-
-impl Table {
-    pub fn create(path: &Path, rings: Vec<Ring>) -> Result<Table> {
-        let file = File::create(path).map_err(|e| file::not_written(path, &e))?;
-        let header = "t,body,angle_deg,N,Q,M,hoop_inner,hoop_outer,u_r,u_t,sigma_n,tau\n";
-        Ok(Table { path: path.into(), file, waiting: header.into(), rings })
-    }
-
-    /// `origin`: the unknowns that displacements are counted from.
-    pub fn record(&mut self, model: &Model, system: &System, state: &State, origin: &[f64]) -> Result<()> {
-        for ring in &self.rings {
-            for s in ring.sections(model, system, state, origin) {
-                let forces = [s.normal_force, s.shear_force, s.moment];
-                let numbers = forces.iter().chain(&s.hoop).chain(&s.displacement).chain(&s.traction);
-                let numbers: String = numbers.map(|x| format!(",{x:e}")).collect();
-                self.waiting += &format!("{:e},{},{}{numbers}\n", state.time, ring.body, s.angle.to_degrees());
-            }
-        }
-        let lines = std::mem::take(&mut self.waiting);
-        self.file.write_all(lines.as_bytes()).map_err(|e| file::not_written(&self.path, &e))
     }
 }

@@ -66,11 +66,11 @@ impl Face {
         let strain = Vector3::new(product[0], product[1], product[2]);
         let dilatation = strain[0] + strain[1];
         let bulk = self.mean_dilatation.as_ref().map_or(dilatation, |b| (b * &u)[0]);
-        let pressure = self.material.bulk_modulus() * bulk;
+        let mean_stress = self.material.bulk_modulus() * bulk;
         let deviator = self.material.deviatoric() * strain;
-        let out_of_plane = pressure - (deviator[0] + deviator[1]);
+        let out_of_plane = mean_stress - (deviator[0] + deviator[1]);
         CellStress {
-            stress: [deviator[0] + pressure, deviator[1] + pressure, out_of_plane, deviator[2]],
+            stress: [deviator[0] + mean_stress, deviator[1] + mean_stress, out_of_plane, deviator[2]],
             strain: [strain[0], strain[1], 0., strain[2] / 2.],
         }
     }

@@ -18,6 +18,14 @@ pub fn stiffness_and_mass(model: &Model, unknowns: &Unknowns) -> (CsMat<f64>, Cs
         let (stiffness, mass) = of_face(model, cell, material);
         scatter(&mut k, &mut m, unknowns, &model.mesh.cells[cell].nodes, &stiffness, &mass);
     }
+    // Where a support holds one side of a pair, its two jumps stand in the rows of different faces: the joint couples them.
+    for joint in &model.joints {
+        let jumps: Vec<usize> = joint.pairs.iter().flat_map(|&p| unknowns.jumps[p]).flatten().collect();
+        for (&i, &j) in jumps.iter().flat_map(|i| jumps.iter().map(move |j| (i, j))) {
+            k.add_triplet(i, j, 0.);
+            m.add_triplet(i, j, 0.);
+        }
+    }
     (k.to_csr(), m.to_csr())
 }
 

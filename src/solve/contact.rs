@@ -2,7 +2,7 @@
 //!
 //! r is piecewise linear, so the tangent depends on the statuses alone and is factored only when one changes.
 
-use super::interface::{Interface, JointState};
+use super::interface::{Interface, JointPoint, JointState};
 use super::newmark::Constants;
 use crate::model::case::Newton;
 use crate::physics::joint::{Friction, JointLaw, Response, Status};
@@ -70,7 +70,12 @@ impl Contact {
         self.newton(problem, guess).or_else(|unsettled| {
             let near = self.fixed_point(problem, guess, unsettled)?;
             // From so near Newton ends at round-off, unless it circles again.
-            Ok(self.newton(problem, &near.jumps).unwrap_or(near))
+            let polished = self.newton(problem, &near.jumps);
+            Ok(polished.map_or(near.clone(), |s| Solution {
+                iterations: near.iterations + s.iterations,
+                displacement_test: near.displacement_test,
+                ..s
+            }))
         })
     }
 
@@ -208,14 +213,13 @@ impl Problem<'_> {
         statuses.iter().copied().chain(last).collect()
     }
 
-    /// f p at every point [Pa].
+    /// f p at every point [Pa], p the elastic pressure.
     fn bounds(&self, jumps: &[f64]) -> Vec<f64> {
-        let responses = self.respond(jumps, None);
-        let limit = |(point, r): (&super::interface::JointPoint, &Response)| match point.law.friction {
-            Friction::Coulomb(f) => f * (-r.traction[1]).max(0.),
+        let limit = |(point, old): (&JointPoint, &JointState)| match point.law.friction {
             Friction::Tresca(bound) => bound,
+            Friction::Coulomb(f) => f * -point.law.respond(self.interface.local(point, jumps), old.slip).traction[1],
         };
-        self.interface.points.iter().zip(&responses).map(limit).collect()
+        self.interface.points.iter().zip(self.old).map(limit).collect()
     }
 }
 
@@ -244,7 +248,7 @@ fn solve_dense(lu: &PartialPivLu<f64>, force: Vec<f64>) -> Vec<f64> {
 }
 
 /// A x of a full symmetric matrix, by its columns.
-pub fn multiply_symmetric(a: &Mat<f64>, x: &[f64]) -> Vec<f64> {
+fn multiply_symmetric(a: &Mat<f64>, x: &[f64]) -> Vec<f64> {
     (0..a.ncols()).map(|j| dot(a.col_as_slice(j), x)).collect()
 }
 

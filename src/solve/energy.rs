@@ -4,7 +4,8 @@
 //! (R_n + R_n+1)'du/2 = change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints'
 //! share is then told apart: what they store, what friction turns to heat, and `contact`: the rest, which comes from joints
 //! that open, close or begin to slip inside a step, and from joint damping where the case asks for it.
-//! The residual is round-off; with other Newmark parameters it is their numerical damping.
+//! The residual is round-off; with other Newmark parameters or HHT it is their numerical damping, and where the case
+//! starts with a = 0 it holds the first imbalance.
 
 use super::system::{State, System, product};
 use sprs::CsMat;

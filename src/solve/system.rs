@@ -103,7 +103,7 @@ impl System {
         let first = self.unknowns.first_jump;
         let per_point = self.interface.points.iter().map(|p| p.law.closed_stiffness());
         self.interface.each_tangent(per_point, |i, j, value| {
-            *closed.get_mut(first + i, first + j).expect("pairs of one joint element share a body element") += value;
+            *closed.get_mut(first + i, first + j).expect("the pattern holds every joint element") += value;
         });
         closed
     }

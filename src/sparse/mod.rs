@@ -25,5 +25,4 @@ pub fn multiply(a: &CsMat<f64>, x: &[f64], y: &mut [f64]) {
 }
 
 #[cfg(test)]
-#[cfg(test)]
 mod testing;

@@ -8,6 +8,7 @@ use crate::model::resolve::Model;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
+use crate::solve::unknowns::Unknowns;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
@@ -27,6 +28,7 @@ pub fn command(request: &Request) -> Result<String> {
         return Ok(report(&[counts(&mesh), groups(&mesh, |_| String::new()), shapes(&mesh)]));
     }
     let Loaded { case, meshed, model } = load(request)?;
+    Unknowns::new(&model.mesh, &model.fixed, &model.pairs)?;
     let parts = [
         format!("{}\n{}", meshed.told, counts(&meshed.mesh)),
         groups(&meshed.mesh, |group| taken_for(group, &case, &model)),
@@ -78,6 +80,9 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
     if let Some(axes) = case.supports.get(&group.name) {
         let names: Vec<&str> = axes.iter().map(|a| ["x", "y"][a.index()]).collect();
         roles.push(format!("support: u_{} = 0", names.join(" = u_")));
+    }
+    if case.initial.contains_key(&group.name) {
+        roles.push("initial motion".into());
     }
     if case.boundaries.contains_key(&group.name) {
         roles.push("viscous boundary".into());

@@ -6,7 +6,7 @@ pub mod gmsh;
 pub mod mesh;
 pub mod meshing;
 pub mod modes;
-mod prepare;
+pub mod prepare;
 mod recorder;
 pub mod run;
 pub mod screen;

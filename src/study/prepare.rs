@@ -76,9 +76,10 @@ fn coefficients(damping: Option<Damping>, modes: &[NaturalMode]) -> Result<Rayle
                 })
             };
             let [f_1, f_2] = [frequency(numbers[0])?, frequency(numbers[1])?];
-            if f_1 + f_2 == 0. {
+            if f_1 == 0. || f_2 == 0. {
                 return Err(Error::input(
-                    "damping.modes: both modes are rigid motions at 0 Hz; hold the mesh by supports or give alpha and beta",
+                    "damping.modes: a mode at 0 Hz is a rigid motion, which Rayleigh's ratio cannot damp; choose modes above it, hold \
+                     the mesh by supports, or give alpha and beta",
                 ));
             }
             Ok(rayleigh(ratio, [f_1, f_2]))

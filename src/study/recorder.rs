@@ -6,7 +6,8 @@ use crate::results::file;
 use crate::results::folder::{Folder, STATUS};
 use crate::results::frame::{Frame, Grid};
 use crate::results::histories::Histories;
-use crate::results::ring::{self, rings};
+use crate::results::ring::rings;
+use crate::results::ring_table::RingTable;
 use crate::results::series::Series;
 use crate::results::summary::{
     ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
@@ -25,7 +26,7 @@ pub struct Recorder<'a> {
     /// the unknowns in equilibrium under gravity, which displacements are counted from
     origin: Vec<f64>,
     histories: Histories,
-    rings: ring::Table,
+    rings: RingTable,
     series: Series,
     status: File,
     status_lines: String,
@@ -54,7 +55,7 @@ impl<'a> Recorder<'a> {
         let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
         let mut recorder = Recorder {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
-            rings: ring::Table::create(
+            rings: RingTable::create(
                 &folder.file("rings.csv"),
                 rings(&prepared.model, &prepared.system, prepared.rayleigh),
             )?,

@@ -11,8 +11,9 @@ use crate::results::summary::{Inputs, Timing};
 use crate::solve::contact::Unsettled;
 use crate::solve::march::March;
 use crate::solve::start;
-use crate::solve::step::Scheme;
+use crate::solve::step::{Scheme, Stepper};
 use crate::solve::system::State;
+use crate::sparse::NotPositiveDefinite;
 use crate::{Error, Result};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -111,11 +112,14 @@ fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
     let Prepared { model, system, symbolic, .. } = prepared;
     let not_definite = |e| prepared.not_definite(e);
     let (scheme, state, origin) = match model.analysis {
-        Analysis::Static => (Scheme::Static, State::at_rest(system), State::at_rest(system).q),
+        Analysis::Static => {
+            let rest = under_gravity(prepared)?;
+            let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
+            let start = at_once.step(system, &rest).map_err(|unsettled| no_rest(prepared, &unsettled))?;
+            (Scheme::Static, start.state, State::at_rest(system).q)
+        }
         Analysis::Dynamic => {
-            let rest = start::under_gravity(system, symbolic, model.newton)
-                .map_err(not_definite)?
-                .map_err(|unsettled| no_rest(prepared, &unsettled))?;
+            let rest = under_gravity(prepared)?;
             let Initial { displacement, velocity } = &model.initial;
             let origin = rest.q.clone();
             let moving = start::with_motion(system, rest, displacement, velocity);
@@ -132,8 +136,21 @@ fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
     Ok((state, origin, march))
 }
 
+fn under_gravity(prepared: &Prepared) -> Result<State> {
+    let found = start::under_gravity(&prepared.system, &prepared.symbolic, prepared.model.newton);
+    found.map_err(not_held)?.map_err(|unsettled| no_rest(prepared, &unsettled))
+}
+
+/// Statics without inertia: the only way to be singular is not to be held.
+fn not_held(_: NotPositiveDefinite) -> Error {
+    Error::input(
+        "nothing holds the mesh, or a part of it, against a steady load (viscous boundaries do not): add a support in x \
+         and in y",
+    )
+}
+
 fn no_rest(prepared: &Prepared, unsettled: &Unsettled) -> Error {
-    Error::NoConvergence(format!("no equilibrium under gravity was found: {}", restless(prepared, unsettled)))
+    Error::NoConvergence(format!("no equilibrium was found at t = 0: {}", restless(prepared, unsettled)))
 }
 
 fn march_to_end(

@@ -1,6 +1,7 @@
 //! What a Gmsh script says about itself without being run: its constants, and the files it reads.
 
 use super::constants::{Constant, Expression, constants, included, words};
+use crate::model::case::nearest;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -81,30 +82,11 @@ impl Script {
         if self.constants.is_empty() {
             return Error::input(format!("{script} has no constant \"{name}\": it has no DefineConstant at all"));
         }
-        let nearest = self.constants.iter().map(|c| (distance(name, &c.name), &c.name)).min();
-        let hint = match nearest {
-            Some((d, near)) if d <= name.chars().count().div_ceil(2) => {
-                format!(", did you mean \"{near}\"?")
-            }
-            _ => ".".into(),
+        let hint = match nearest(name, self.constants.iter().map(|c| c.name.as_str())) {
+            Some(near) => format!(", did you mean \"{near}\"?"),
+            None => ".".into(),
         };
         let list: Vec<String> = self.constants.iter().map(|c| format!("{} = {}", c.name, c.default)).collect();
         Error::input(format!("{script} has no constant \"{name}\"{hint} It has: {}", list.join(", ")))
     }
-}
-
-/// Levenshtein's distance: letters to insert, delete or replace.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.to_lowercase().chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.to_lowercase().chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }

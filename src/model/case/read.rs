@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::duplicate::Unique;
-use super::{Case, Newmark, sentence, set, table};
+use super::{Analysis, Case, Newmark, sentence, set, table};
 use crate::{Error, Result};
 
 impl Case {
@@ -66,6 +66,9 @@ fn validate(case: &Case) -> std::result::Result<(), String> {
     }
     if time.hht != 0.0 && time.newmark != Newmark::default() {
         return Err("time.hht: it sets alpha and delta itself; leave time.newmark out, or hht".into());
+    }
+    if case.analysis == Analysis::Static && !case.initial.is_empty() {
+        return Err("initial: a static calculation has no motion to start with; leave \"initial\" out".into());
     }
     if let Some(every) = case.output.every.filter(|every| *every < time.step) {
         return Err(format!("output.every: it is {every}, and must be at least one time step ({})", time.step));

@@ -1,0 +1,95 @@
+//! Hoop stress at the faces of a pipe wall: from the best points of its elements, fitted and extrapolated.
+//!
+//! Linear in the displacements: sigma_theta = sum of weight . u, the weights found once.
+
+use super::ring::material_of;
+use crate::model::case::Quad4;
+use crate::model::resolve::Model;
+use crate::model::ring::RingShape;
+use crate::physics::element::{self, Integral};
+use crate::physics::shape::Shape;
+use nalgebra::{DMatrix, RowDVector, RowVector3, Vector3};
+use std::f64::consts::{PI, TAU};
+
+/// (node, weight of its displacement) [Pa/m]; a node may stand more than once.
+pub type Weights = Vec<(usize, [f64; 2])>;
+
+/// sigma_theta = row u at a point of an element.
+pub struct Sample {
+    sector: usize,
+    radius: f64,
+    angle: f64,
+    nodes: Vec<usize>,
+    /// [Pa/m]
+    row: RowDVector<f64>,
+}
+
+/// The best points of each element: its centre, with mid-sides 2 x 2 Gauss points or the three of T6.
+pub fn samples(shape: &RingShape, model: &Model) -> Vec<Sample> {
+    let in_face = |&(cell, sector): &(usize, usize)| {
+        let face = &model.mesh.cells[cell];
+        let material = material_of(model, cell);
+        let at: Vec<[f64; 2]> = face.nodes.iter().map(|&n| model.mesh.points[n]).collect();
+        let b_bar = face.shape == Shape::Quad4 && model.quad4 == Quad4::BBar;
+        let mean = b_bar.then(|| element::mean_dilatation(&element::points(face.shape, &at, Integral::Stiffness)));
+        let points = best_points(face.shape).into_iter().map(|place| element::point(face.shape, &at, place, 1.));
+        let sample = |p: element::Point| {
+            let [x, y] = [p.at[0] - shape.centre[0], p.at[1] - shape.centre[1]];
+            let angle = y.atan2(x);
+            // sigma_theta = e_theta' sigma e_theta
+            let (sin, cos) = angle.sin_cos();
+            let hoop = RowVector3::new(sin * sin, cos * cos, -2. * sin * cos);
+            let stress = match &mean {
+                None => material.plane_strain() * p.b(),
+                Some(mean) => material.deviatoric() * p.b() + Vector3::new(1., 1., 0.) * mean * material.bulk_modulus(),
+            };
+            Sample { sector, radius: x.hypot(y), angle, nodes: face.nodes.clone(), row: hoop * stress }
+        };
+        points.map(sample).collect::<Vec<_>>()
+    };
+    shape.sectors.iter().flat_map(in_face).collect()
+}
+
+fn best_points(shape: Shape) -> Vec<[f64; 2]> {
+    match shape {
+        Shape::Tri3 => vec![[1. / 3., 1. / 3.]],
+        Shape::Tri6 => vec![[1. / 6., 1. / 6.], [2. / 3., 1. / 6.], [1. / 6., 2. / 3.]],
+        Shape::Quad8 => element::gauss_2().iter().flat_map(|(r, _)| element::gauss_2().map(|(s, _)| [*r, s])).collect(),
+        _ => vec![[0., 0.]],
+    }
+}
+
+/// Least squares over the two sectors on either side of a ray, then the value at the ray and `radius`.
+///
+/// The terms 1, 1/r^2, s, s^2 (s from -1 to 1 through the wall; no more than there are places in a wall) hold Lame's
+/// solution; each times 1, x, x^2 in the angle x.
+pub fn at(shape: &RingShape, samples: &[Sample], ray: usize, radius: f64) -> Weights {
+    let rays = shape.rays.len();
+    let near: Vec<&Sample> = samples.iter().filter(|s| (s.sector + rays + 2 - ray) % rays < 4).collect();
+    let radial = radial_terms(shape, near[0].nodes.len());
+    let (inner, outer) = shape.faces();
+    let term = |k: usize, r: f64, angle: f64| {
+        let s = (2. * r - inner - outer) / (outer - inner);
+        let x = ((angle + PI).rem_euclid(TAU) - PI) * rays as f64 / TAU;
+        [1., (inner / r).powi(2), s, s * s][k / 3] * [1., x, x * x][k % 3]
+    };
+    let fit =
+        DMatrix::from_fn(near.len(), 3 * radial, |i, k| term(k, near[i].radius, near[i].angle - shape.rays[ray].angle));
+    let wanted = RowDVector::from_fn(3 * radial, |_, k| term(k, radius, 0.));
+    let inverse = fit.pseudo_inverse(1e-10).expect("the tolerance is not negative");
+    let of_sample = |(s, weight): (&&Sample, &f64)| {
+        let row = &s.row * *weight;
+        s.nodes.iter().enumerate().map(move |(i, &n)| (n, [row[2 * i], row[2 * i + 1]])).collect::<Vec<_>>()
+    };
+    near.iter().zip((wanted * inverse).iter()).flat_map(of_sample).collect()
+}
+
+/// As many as layers, twice as many with mid-sides, half as many of triangles of three nodes, which scatter.
+fn radial_terms(shape: &RingShape, nodes: usize) -> usize {
+    let layers = shape.radii.len() - 1;
+    match nodes {
+        3 => (layers / 2).clamp(1, 4),
+        4 => layers.min(4),
+        _ => (2 * layers).min(4),
+    }
+}
