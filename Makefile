@@ -9,7 +9,7 @@ program := target/release/coralpipe
 python := .venv/bin/python
 sources := $(shell find src -name '*.rs') Cargo.toml Cargo.lock
 
-.PHONY: all setup test batch picture clean
+.PHONY: all setup test batch book picture clean
 all: setup $(program)
 	$(program) run
 
@@ -30,6 +30,10 @@ test: setup $(program)
 	$(program) run --quiet --out output/test
 	$(python) scripts/check_output.py output/test
 	$(python) scripts/random_geometries.py 50 2026 --binary $(program)
+	PYTHONPATH=scripts $(python) -m book --quick
+
+book: setup $(program)
+	PYTHONPATH=scripts $(python) -m book
 
 # Goes on where one variant fails, so that the table holds the others; the failure is told at the end.
 batch: setup $(program)

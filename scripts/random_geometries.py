@@ -9,6 +9,7 @@ on purpose. What meshes is also checked against exact areas by check_mesh.py. Wo
 
 import argparse
 import json
+import os
 import pathlib
 import random
 import shutil
@@ -99,6 +100,12 @@ def ran_well(done):
     return done.returncode == 0
 
 
+def with_gmsh():
+    """The environment, with the gmsh of this project named: the geometries are drawn far from its .venv."""
+    ours = ROOT / ".venv/bin/gmsh"
+    return {**({"CORALPIPE_GMSH": str(ours)} if ours.exists() else {}), **os.environ}
+
+
 def try_one(binary, case_file, values, folder):
     """'meshed' or the sentence it stopped with."""
     case = json.loads(case_file.read_text())
@@ -110,7 +117,7 @@ def try_one(binary, case_file, values, folder):
     geo = [word for name, value in values.items() for word in ("--geo", f"{name}={value}")]
     for command in ("mesh", "check"):
         words = [str(binary), command, str(copy), *geo]
-        done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120)
+        done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120, env=with_gmsh())
         if not ran_well(done):
             return done.stderr.strip().splitlines()[-1]
     for mesh in folder.rglob("*.msh"):

@@ -341,7 +341,7 @@ fn all_within(name: &str, sections: &[Section], exact: [[f64; 6]; 2], tolerance:
 #[test]
 fn a_buried_ring_has_the_exact_forces_bonded_stuck_and_frictionless() {
     for (shape, rays, layers, ground, tolerance) in
-        [(Shape::Quad4, 128, 4, 96, 0.08), (Shape::Quad8, 64, 2, 24, 0.003), (Shape::Tri6, 64, 2, 24, 0.004)]
+        [(Shape::Quad4, 128, 4, 96, 0.08), (Shape::Quad8, 64, 2, 24, 0.003), (Shape::Tri6, 64, 2, 24, 0.005)]
     {
         let polar = Polar { shape, rays, radii: [0.9, 1.0], layers, ground_layers: ground, width: 40. };
         let run = |name: &str, interface: &str, bonded: bool, exact| {
@@ -360,7 +360,7 @@ fn a_buried_ring_has_the_exact_forces_bonded_stuck_and_frictionless() {
 #[test]
 fn the_papers_pipe_has_the_exact_forces() {
     for (shape, rays, ground, tolerance) in
-        [(Shape::Quad4, 64, 48, 0.035), (Shape::Quad4, 128, 96, 0.01), (Shape::Quad8, 64, 24, 0.005)]
+        [(Shape::Quad4, 64, 48, 0.035), (Shape::Quad4, 128, 96, 0.01), (Shape::Quad8, 64, 24, 0.002)]
     {
         let polar = Polar { shape, rays, radii: [0.4, 0.6], layers: rays / 16, ground_layers: ground, width: 24. };
         let name = format!("paper_{shape:?}_{rays}");

@@ -95,7 +95,7 @@ fn sector(face: &Cell, ray_of: &BTreeMap<usize, usize>, rays: usize) -> Option<u
     }
 }
 
-/// The corner nodes of the outer of exactly two border loops.
+/// The corner nodes of the outer of exactly two border loops, which have as many nodes each.
 fn outer_border(mesh: &Mesh, faces: &[usize]) -> Option<Vec<usize>> {
     let sides: BTreeSet<(usize, usize)> = faces.iter().flat_map(|&f| corner_sides(&mesh.cells[f])).collect();
     let mut next: BTreeMap<usize, usize> = sides.iter().copied().filter(|&(a, b)| !sides.contains(&(b, a))).collect();
@@ -115,7 +115,8 @@ fn outer_border(mesh: &Mesh, faces: &[usize]) -> Option<Vec<usize>> {
         };
         (0..nodes.len()).map(cross).sum()
     };
-    let two = loops.len() == 2;
+    // As many nodes in both: no notch.
+    let two = loops.len() == 2 && loops[0].len() == loops[1].len();
     loops.into_iter().find(|l| two && l.len() > 2 && area(l) > 0.)
 }
 

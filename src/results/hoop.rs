@@ -61,17 +61,16 @@ fn best_points(shape: Shape) -> Vec<[f64; 2]> {
 
 /// Least squares over the two sectors on either side of a ray, then the value at the ray and `radius`.
 ///
-/// The terms 1, 1/r^2, s, s^2 (s from -1 to 1 through the wall; no more than there are places in a wall) hold Lame's
-/// solution; each times 1, x, x^2 in the angle x.
+/// The terms 1, 1/r^2, r^2, 1/r^4 (no more than there are places in a wall) hold Lame's solution and that of an ovalised
+/// ring, Michell's cos 2 theta; each times 1, x, x^2 in the angle x.
 pub fn at(shape: &RingShape, samples: &[Sample], ray: usize, radius: f64) -> Weights {
     let rays = shape.rays.len();
     let near: Vec<&Sample> = samples.iter().filter(|s| (s.sector + rays + 2 - ray) % rays < 4).collect();
     let radial = radial_terms(shape, near[0].nodes.len());
-    let (inner, outer) = shape.faces();
+    let (inner, _) = shape.faces();
     let term = |k: usize, r: f64, angle: f64| {
-        let s = (2. * r - inner - outer) / (outer - inner);
         let x = ((angle + PI).rem_euclid(TAU) - PI) * rays as f64 / TAU;
-        [1., (inner / r).powi(2), s, s * s][k / 3] * [1., x, x * x][k % 3]
+        [1., (inner / r).powi(2), (r / inner).powi(2), (inner / r).powi(4)][k / 3] * [1., x, x * x][k % 3]
     };
     let fit =
         DMatrix::from_fn(near.len(), 3 * radial, |i, k| term(k, near[i].radius, near[i].angle - shape.rays[ray].angle));

@@ -25,6 +25,9 @@ pub struct Energies {
     pub residual: f64,
 }
 
+/// Share of the largest stored energy that opening and closing may gain or lose unsaid.
+const SUSPICIOUS: f64 = 0.02;
+
 #[derive(Debug, Clone)]
 pub struct Ledger {
     pub now: Energies,
@@ -81,6 +84,20 @@ impl Ledger {
             load,
             joint_force,
         }
+    }
+
+    /// Says where the joints' bookkeeping is more than a small part of what moves: they chatter, and peaks are not to be
+    /// trusted.
+    pub fn warning(&self) -> Option<String> {
+        let share = self.now.contact / self.peak;
+        (self.peak > 0. && share.abs() > SUSPICIOUS).then(|| {
+            format!(
+                "joints that open and close within steps have {} energy, {:.1} % of the largest stored: take a smaller \
+                 time.step, damping, or time.hht",
+                if share < 0. { "made" } else { "lost" },
+                100. * share.abs()
+            )
+        })
     }
 
     /// Largest |residual| over the largest stored energy.

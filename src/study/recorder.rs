@@ -168,7 +168,7 @@ impl<'a> Recorder<'a> {
             peaks: self.histories.peaks(),
             energy: EnergyRecord::from(&self.ledger),
             timing: Timing { steps_s, output_s: written.busy.as_secs_f64(), ..timing },
-            warnings: model.warnings.clone(),
+            warnings: model.warnings.iter().cloned().chain(self.ledger.warning()).collect(),
         })
     }
 }

@@ -80,6 +80,7 @@ pub fn command(request: &Request) -> Result<String> {
     let Loaded { case, meshed, model } = load(request)?;
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
+    let told = model.warnings.len();
     let prepared = Prepared::new(model)?;
     screen.say(&format!("{} unknowns, {} joints", prepared.system.unknowns.count, prepared.model.joints.len()));
 
@@ -100,6 +101,7 @@ pub fn command(request: &Request) -> Result<String> {
         let mut summary = recorder.finish(ending, inputs, &case.title, timing)?;
         summary.timing.total_s = started.elapsed().as_secs_f64();
         folder.write_summary(&summary.to_json())?;
+        summary.warnings[told..].iter().for_each(|w| screen.warn(w));
         error.map_or(Ok(summary), Err)
     };
     let summary = solve().map_err(|error| with_what_is_left(error, &folder))?;

@@ -1,0 +1,76 @@
+"""`python -m book`: writes docs/verification/; `--quick`: the same comparisons on coarser variants, nothing written.
+
+Exit code 1, with a sentence each, where a number misses its tolerance.
+"""
+
+import argparse
+import importlib
+import pkgutil
+import shutil
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import book
+from book.lib import ROOT, Book, Failed, Page
+from book.pages import write_page, write_summary
+
+FULL_ONLY = {"condensed"}  # quick: `make test` runs its Rust test anyway
+NO_CASES = {"lib", "pages", "__main__", "ring_theory"}
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="python -m book", description=__doc__)
+    parser.add_argument("cases", nargs="*", help="names of cases; default: all")
+    parser.add_argument("--quick", action="store_true", help="coarser and shorter, no files in docs/")
+    parser.add_argument("--jobs", type=int, default=2, help="cases at a time (default 2)")
+    parser.add_argument("--list", action="store_true", help="print the names of the cases")
+    arguments = parser.parse_args()
+
+    known = [m.name for m in pkgutil.iter_modules(book.__path__) if m.name not in NO_CASES]
+    if arguments.list:
+        print("\n".join(known))
+        return 0
+    strange = [name for name in arguments.cases if name not in known]
+    if strange:
+        print(f"book: there is no case {', '.join(strange)}; there are: {', '.join(known)}", file=sys.stderr)
+        return 1
+    wanted = arguments.cases or [name for name in known if not (arguments.quick and name in FULL_ONLY)]
+
+    started = time.monotonic()
+    if not arguments.cases:
+        shutil.rmtree(ROOT / "output" / "book" / ("quick" if arguments.quick else "full"), ignore_errors=True)
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        pages = list(pool.map(lambda name: calculate(name, arguments.quick), wanted))
+    pages = [page for page in pages if page is not None]
+    if not arguments.quick:
+        for page in pages:
+            write_page(page)
+        if not arguments.cases:
+            write_summary(pages, time.monotonic() - started)
+    bad = [name for name in wanted if name not in {p.name for p in pages if p.passes}]
+    rows = sum(len(page.rows) for page in pages)
+    print(f"{len(wanted) - len(bad)} of {len(wanted)} cases hold, {rows} numbers, {time.monotonic() - started:.0f} s")
+    return 1 if bad else 0
+
+
+def calculate(name: str, quick: bool) -> Page | None:
+    """The page of a case; what misses is said at once. None where a run fails."""
+    started = time.monotonic()
+    try:
+        page = importlib.import_module(f"book.{name}").page(Book(quick))
+    except (Failed, KeyError, IndexError, ValueError, OSError) as why:
+        print(f"book: {name} gives no result: {type(why).__name__}: {why}", file=sys.stderr)
+        return None
+    page.name = name
+    for row in page.rows:
+        if not row.passes:
+            print(f"book: {name}: {row.quantity} is {row.value:.8g} {row.unit} and should be {row.reference:.8g}: the "
+                  f"error {row.error:.3g} is above its tolerance {row.tolerance:.3g}", file=sys.stderr)
+    print(f"{name:28} {len(page.rows):4} numbers {'hold' if page.passes else 'MISS'} {time.monotonic() - started:6.1f} s",
+          flush=True)
+    return page
+
+
+if __name__ == "__main__":
+    sys.exit(main())

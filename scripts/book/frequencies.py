@@ -1,0 +1,117 @@
+"""Item 16: natural frequencies of a cantilever and of a free ring."""
+
+from math import factorial, log
+
+import numpy as np
+
+from book.lib import Page, Row
+
+E_STEEL, NU_STEEL, RHO_STEEL, LENGTH, DEPTH = 210e9, 0.3, 7800, 10, 0.5
+E_RING, NU_RING, RHO_RING, RADIUS, WALL = 30e9, 0.2, 2500, 0.95, 0.1
+
+
+def bisect(f, low, high):
+    negative = f(low) < 0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (f(middle) < 0) == negative else (low, middle)
+    return (low + high) / 2
+
+
+def euler_cantilever():
+    plate = E_STEEL / (1 - NU_STEEL**2)
+    return 1.8751040687**2 / (2 * np.pi * LENGTH**2) * np.sqrt(plate * DEPTH**2 / 12 / RHO_STEEL)
+
+
+def timoshenko_cantilever():
+    """First root of det T = 0, T the transfer of (moment, shear) from root to tip; shear factor 5/6, rotary inertia."""
+    inertia, area = DEPTH**3 / 12, DEPTH
+    bending = E_STEEL / (1 - NU_STEEL**2) * inertia
+    shear = 5 / 6 * E_STEEL / (2 * (1 + NU_STEEL)) * area
+
+    def det(f):
+        w2 = (2 * np.pi * f) ** 2
+        # (w, psi, M, Q): w' = psi + Q / kGA, psi' = M / EI, M' = -Q - rho I w2 psi, Q' = -rho A w2 w
+        a = np.array([[0, 1, 0, 1 / shear], [0, 0, 1 / bending, 0], [0, -RHO_STEEL * inertia * w2, 0, -1],
+                      [-RHO_STEEL * area * w2, 0, 0, 0]])
+        scale = np.diag([1, 1, bending, bending])
+        values, vectors = np.linalg.eig(np.linalg.inv(scale) @ a @ scale)
+        transfer = ((vectors * np.exp(values * LENGTH)) @ np.linalg.inv(vectors)).real
+        return np.linalg.det(transfer[2:, 2:])
+
+    return bisect(det, 0.8 * euler_cantilever(), 1.05 * euler_cantilever())
+
+
+def thin_ring(n):
+    plate = E_RING / (1 - NU_RING**2)
+    return n * (n * n - 1) / np.sqrt(n * n + 1) * np.sqrt(plate * WALL**2 / 12 / (RHO_RING * RADIUS**4)) / (2 * np.pi)
+
+
+def bessel(n, x):
+    """(J_n, Y_n) of small x by their series."""
+    harmonic = lambda k: sum(1 / i for i in range(1, k + 1)) - 0.5772156649015329
+    term = lambda k: (-1) ** k * (x / 2) ** (2 * k + n) / (factorial(k) * factorial(n + k))
+    j = sum(term(k) for k in range(20))
+    y = 2 / np.pi * j * log(x / 2) - sum((harmonic(k) + harmonic(n + k)) * term(k) for k in range(20)) / np.pi
+    y -= sum(factorial(n - k - 1) / factorial(k) * (x / 2) ** (2 * k - n) for k in range(n)) / np.pi
+    return j, y
+
+
+def elastic_ring(n):
+    """Exact plane strain (Gazis 1958): u_r = phi' + n psi / r, u_t = -n phi / r - psi', with phi, psi sums of J_n and Y_n,
+    both edges free of traction; the frequency at which the determinant of their four amplitudes vanishes."""
+    mu = E_RING / (2 * (1 + NU_RING))
+    lam = E_RING * NU_RING / ((1 + NU_RING) * (1 - 2 * NU_RING))
+
+    def det(f):
+        omega = 2 * np.pi * f
+        wave = {"p": omega * np.sqrt(RHO_RING / (lam + 2 * mu)), "s": omega * np.sqrt(RHO_RING / mu)}
+        matrix = np.zeros((4, 4))
+        for e, r in enumerate([RADIUS - WALL / 2, RADIUS + WALL / 2]):
+            for c, (kind, which) in enumerate([("p", 0), ("p", 1), ("s", 0), ("s", 1)]):
+                k = wave[kind]
+                z = bessel(n, k * r)[which]
+                d = k * bessel(n - 1, k * r)[which] - n / r * z
+                dd = -d / r - (k * k - n * n / r**2) * z
+                if kind == "p":
+                    radial = -lam * k * k * z + 2 * mu * dd
+                    shear = 2 * mu * n * (z / r**2 - d / r)
+                else:
+                    radial = 2 * mu * n * (d / r - z / r**2)
+                    shear = mu * (d / r - dd - n * n * z / r**2)
+                matrix[2 * e, c], matrix[2 * e + 1, c] = radial, shear
+        return np.linalg.det(matrix / abs(matrix).max(axis=0))
+
+    return bisect(det, 0.95 * thin_ring(n), 1.005 * thin_ring(n))
+
+
+def page(book):
+    beam = {"along": 80, "across": 4} if book.quick else {"along": 160, "across": 8}
+    ring = {"around": 64, "through": 2} if book.quick else {"around": 128, "through": 4}
+    f1 = book.modes("cantilever", 1, geo=beam)[0]
+    rings = book.modes("free_ring", 7, geo=ring)
+    rows = [
+        Row("cantilever: f_1 beside Euler's beam", euler_cantilever(), f1, 3e-3, "Hz",
+            why="4.3933 Hz; shear and rotary inertia take about (depth / length)^2"),
+        Row("cantilever: f_1 beside Timoshenko's beam", timoshenko_cantilever(), f1, 2e-3, "Hz",
+            why="the held root keeps the solid from narrowing there, which stiffens it by about 0.1 %; its corners are singular and converge slowly"),
+        Row("ring: rigid motions among the lowest modes", 3, sum(f < 1e-3 * rings[3] for f in rings), 0, relative=False,
+            why="a count"),
+    ]
+    for n, place in [(2, 3), (3, 5)]:
+        exact = elastic_ring(n)
+        for twin in (place, place + 1):
+            rows.append(Row(f"ring: n = {n}, exact in plane strain, mode {twin + 1}", exact, rings[twin], 6e-4 if book.quick else 5e-5, "Hz",
+                            why="error of the mesh"))
+        rows.append(Row(f"ring: n = {n}, thin ring", thin_ring(n), rings[place], 0.025, "Hz",
+                        why="48.30, 136.6 Hz; shear and rotary inertia of a wall of a tenth of the radius take 1 to 2 %"))
+    return Page(
+        "frequencies", "Natural frequencies: cantilever and free ring", [16],
+        problem="`coralpipe modes` of a steel cantilever of 10 x 0.5 m and of a concrete ring of mean radius 0.95 m and wall 0.1 m "
+                "that nothing holds, in Q8 elements.",
+        reference="Beams with E / (1 - nu^2): Euler in closed form, Timoshenko (shear factor 5/6) by the transfer matrix. Ring: "
+                  "n (n^2 - 1) / sqrt(n^2 + 1) sqrt(E' I / m R^4) for a thin one, and the exact plane-strain solution in Bessel "
+                  "functions (D. C. Gazis 1958), its determinant solved here.",
+        rows=rows, code=["src/solve/modes.rs", "src/sparse/lanczos.rs", "src/study/modes.rs"],
+        notes="A ring's modes come in twins, turned against each other by a quarter of a wave; both are compared.",
+    )
