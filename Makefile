@@ -43,7 +43,7 @@ batch: setup $(program)
 # A display server that was just closed can refuse the next one: then once more.
 picture: all
 	for try in 1 2 3; do \
-	    xvfb-run -a pvpython scripts/render.py output/twin_pipes docs/twin_pipes.png --time 0.09 && exit 0; sleep 2; done; exit 1
+	    xvfb-run -a pvpython scripts/render.py output/twin_pipes docs/twin_pipes.png --time 0.09 --range 0.6 1.2 && exit 0; sleep 2; done; exit 1
 
 clean:
 	cargo clean

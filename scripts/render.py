@@ -2,8 +2,8 @@
 
     xvfb-run -a pvpython scripts/render.py output/twin_pipes picture.png [--field von_mises] [--time 0.012]
 
-Without --time, the moment when some point has moved furthest down. The picture spans from the ground's surface to as
-far below the pipes, in true position plus displacements times a round factor; black lines bound the materials.
+Without --time, the moment when some point has moved furthest down. The picture spans from the ground's surface to
+below the pipes, in true position plus displacements times a round factor; black lines bound the materials.
 """
 
 import argparse
@@ -22,7 +22,8 @@ FIELDS = {  # association, value in the unit shown, title, unit
     "von_mises": ("CELLS", "1e-6*von_mises", "Von Mises stress", "MPa"),
 }
 SIZE = (1600, 900)
-BAND = 0.74  # height of the ground's surface in the picture: 0 the middle, 1 the top
+BAND = 0.28  # for the words above the ground, in half heights of the picture
+BELOW = 1.45  # depth that is shown, in depths of the lowest interface
 
 
 def open_series(folder):
@@ -60,14 +61,13 @@ def round_factor(length, greatest):
 
 
 def window(grid):
-    """(centre x, centre y, half height) of what is shown [m]: the interfaces in the middle, above the surface a
-    band for the words."""
+    """(centre x, centre y, half height) of what is shown [m]: from the words above the surface to below the interfaces."""
     lines = [i for i in range(grid.GetNumberOfCells()) if grid.GetCellType(i) in (3, 21)]
     boxes = [grid.GetCell(i).GetBounds() for i in lines] or [grid.GetBounds()]
-    x = (min(b[0] for b in boxes) + max(b[1] for b in boxes)) / 2
-    y = (min(b[2] for b in boxes) + max(b[3] for b in boxes)) / 2
-    row = max(b[1] for b in boxes) - x
-    return x, y, max((grid.GetBounds()[3] - y) / BAND, 1.2 * row * SIZE[1] / SIZE[0])
+    left, right, lowest = min(b[0] for b in boxes), max(b[1] for b in boxes), min(b[2] for b in boxes)
+    surface = grid.GetBounds()[3]
+    half = max(BELOW * (surface - lowest) / (2 - BAND), 0.6 * (right - left) * SIZE[1] / SIZE[0])
+    return (left + right) / 2, surface + (BAND - 1) * half, half
 
 
 def show_field(source, field, limits, view):
@@ -86,7 +86,7 @@ def show_field(source, field, limits, view):
         table.RescaleTransferFunction(*limits)
     bar = simple.GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = f"{title} [{unit}]", ""
-    bar.RangeLabelFormat = "%.3g"
+    bar.AddRangeLabels = 0
     bar.Orientation, bar.WindowLocation, bar.ScalarBarLength = "Horizontal", "Upper Right Corner", 0.4
     for part in ("Title", "Label"):
         setattr(bar, f"{part}Color", [0, 0, 0])
