@@ -6,8 +6,8 @@ use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::resolve::Model;
 use coralpipe::solve::energy::Ledger;
 use coralpipe::solve::modes::{natural_modes, rayleigh};
-use coralpipe::solve::system::{State, System, product};
-use coralpipe::sparse::Symbolic;
+use coralpipe::solve::system::{State, System};
+use coralpipe::sparse::{Symbolic, multiply};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use support::{Drawing, dot, root};
@@ -116,7 +116,7 @@ fn decrement(steps: usize) -> f64 {
     let start = State { q: shape.clone(), a, ..State::at_rest(&system) };
     let mut amplitudes = Vec::new();
     support::march_from(start, &model, &system, |state| {
-        let m_phi = product(&system.mass, shape);
+        let m_phi = multiply(&system.mass, shape);
         let (y, rate) = (dot(&m_phi, &state.q), dot(&m_phi, &state.v));
         amplitudes.push(y.hypot((rate + xi * omega * y) / omega_d));
     });
@@ -139,7 +139,7 @@ fn the_average_acceleration_balances_energy_in_every_step() {
     let system = System::new(&model).unwrap();
     let system = system.with_damping(coralpipe::solve::system::Rayleigh { alpha: 8., beta: 1e-4 }, false);
     let energy =
-        |s: &State| (dot(&s.v, &product(&system.mass, &s.v)) + dot(&s.q, &product(&system.stiffness, &s.q))) / 2.;
+        |s: &State| (dot(&s.v, &multiply(&system.mass, &s.v)) + dot(&s.q, &multiply(&system.stiffness, &s.q))) / 2.;
     let mut states: Vec<State> = Vec::new();
     support::march(&model, &system, |state| states.push(state.clone()));
     let largest = states.iter().map(energy).fold(0., f64::max);
@@ -150,7 +150,7 @@ fn the_average_acceleration_balances_energy_in_every_step() {
         let du: Vec<f64> = (0..new.q.len()).map(|i| new.q[i] - old.q[i]).collect();
         let v: Vec<f64> = (0..new.v.len()).map(|i| (new.v[i] + old.v[i]) / 2.).collect();
         let work = (dot(&system.load(old.time), &du) + dot(&system.load(new.time), &du)) / 2.;
-        let lost = model.time.step * dot(&v, &product(&system.damping, &v));
+        let lost = model.time.step * dot(&v, &multiply(&system.damping, &v));
         worst = worst.max((energy(new) - energy(old) - work + lost).abs() / largest);
         ledger = ledger.after(&system, old, new);
     }

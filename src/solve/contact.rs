@@ -6,6 +6,7 @@ use super::interface::{Interface, JointPoint, JointState};
 use super::newmark::Constants;
 use crate::model::case::Newton;
 use crate::physics::joint::{Friction, JointLaw, Response, Status};
+use crate::sparse::vector::{dot, norm};
 use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use nalgebra::{Matrix2, Vector2};
@@ -264,14 +265,6 @@ fn bisect(is_past: impl Fn(f64) -> bool) -> f64 {
 
 fn differing(a: &[Status], b: &[Status]) -> Vec<usize> {
     (0..a.len()).filter(|&i| a[i] != b[i]).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {

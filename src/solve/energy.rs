@@ -7,7 +7,9 @@
 //! The residual is round-off; with other Newmark parameters or HHT it is their numerical damping, and where the case
 //! starts with a = 0 it holds the first imbalance.
 
-use super::system::{State, System, product};
+use super::system::{State, System};
+use crate::sparse::multiply;
+use crate::sparse::vector::dot;
 use sprs::CsMat;
 
 /// Energies since the start, per metre of pipe [J].
@@ -62,7 +64,7 @@ impl Ledger {
 
         let work = mean_dot(&self.load, &load, &du);
         let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
-        let drained = |c: &CsMat<f64>| dt * dot(&mean_velocity, &product(c, &mean_velocity));
+        let drained = |c: &CsMat<f64>| dt * dot(&mean_velocity, &multiply(c, &mean_velocity));
         let boundary = system.dashpots.as_ref().map_or(0., drained);
         let damping = drained(&system.damping) - boundary;
         let friction = friction(system, old, new);
@@ -113,8 +115,8 @@ fn stored(system: &System, state: &State) -> Energies {
         point.area * point.law.stored_energy(system.interface.local(point, jumps), joint.slip)
     };
     Energies {
-        kinetic: dot(&state.v, &product(&system.mass, &state.v)) / 2.,
-        strain: dot(&state.q, &product(&system.stiffness, &state.q)) / 2.,
+        kinetic: dot(&state.v, &multiply(&system.mass, &state.v)) / 2.,
+        strain: dot(&state.q, &multiply(&system.stiffness, &state.q)) / 2.,
         joint: system.interface.points.iter().zip(&state.joints).map(joint).sum(),
         ..Energies::default()
     }
@@ -132,8 +134,4 @@ fn joint_force(system: &System, state: &State) -> Vec<f64> {
 
 fn mean_dot(a: &[f64], b: &[f64], x: &[f64]) -> f64 {
     (0..x.len()).map(|i| (a[i] + b[i]) / 2. * x[i]).sum()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

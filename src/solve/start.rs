@@ -3,9 +3,10 @@
 use super::condensed::{Condensed, Reference};
 use super::contact::Unsettled;
 use super::interface::JointState;
-use super::system::{State, System, product};
+use super::system::{State, System};
 use crate::model::case::{Newton, Start};
-use crate::sparse::{NotPositiveDefinite, Symbolic};
+use crate::sparse::vector::add;
+use crate::sparse::{NotPositiveDefinite, Symbolic, multiply};
 
 /// Gravity may be put on in this many parts.
 const PARTS: [usize; 4] = [1, 4, 16, 64];
@@ -67,7 +68,7 @@ pub fn with_acceleration(
     }
     let mut a = system.load(0.);
     for (matrix, x) in [(&system.damping, &state.v), (&system.stiffness, &state.q)] {
-        a.iter_mut().zip(&product(matrix, x)).for_each(|(a, p)| *a -= p);
+        add(&mut a, -1., &multiply(matrix, x));
     }
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
     a[system.unknowns.first_jump..].iter_mut().zip(joint_forces).for_each(|(a, r)| *a -= r);

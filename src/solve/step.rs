@@ -6,9 +6,10 @@
 use super::condensed::{Condensed, Reference};
 use super::contact::{JointDamping, Unsettled};
 use super::newmark::Constants;
-use super::system::{State, System, combine, product};
+use super::system::{State, System, combine};
 use crate::model::case::{Integrator, Newton};
-use crate::sparse::{NotPositiveDefinite, Symbolic};
+use crate::sparse::vector::add;
+use crate::sparse::{NotPositiveDefinite, Symbolic, multiply};
 
 /// What a step solves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,12 +112,12 @@ impl Dynamic {
         let for_damping: Vec<f64> =
             (0..old.q.len()).map(|i| weight * self.constants.for_damping(before(i)) + self.hht * old.v[i]).collect();
         let mut rhs = system.load(time);
-        add(&mut rhs, 1., &product(&system.mass, &for_mass));
-        add(&mut rhs, 1., &product(&system.damping, &for_damping));
+        add(&mut rhs, 1., &multiply(&system.mass, &for_mass));
+        add(&mut rhs, 1., &multiply(&system.damping, &for_damping));
         if self.hht != 0. {
             let mut change = system.load(time);
             add(&mut change, -1., &system.load(old.time));
-            add(&mut change, 1., &product(&system.stiffness, &old.q));
+            add(&mut change, 1., &multiply(&system.stiffness, &old.q));
             add(&mut rhs, self.hht, &change);
         }
         rhs
@@ -131,9 +132,4 @@ impl Dynamic {
             rate_offset: (0..q.len()).map(offset).collect(),
         })
     }
-}
-
-/// x <- x + factor y.
-fn add(x: &mut [f64], factor: f64, y: &[f64]) {
-    x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);
 }

@@ -6,7 +6,6 @@ use super::unknowns::Unknowns;
 use crate::Result;
 use crate::model::resolve::Model;
 use crate::physics::pulse::Pulse;
-use crate::sparse::multiply;
 use serde::Serialize;
 use sprs::CsMat;
 
@@ -134,13 +133,6 @@ pub fn combine(terms: &[(f64, &CsMat<f64>)]) -> CsMat<f64> {
         sum.data_mut().iter_mut().zip(matrix.data()).for_each(|(s, m)| *s += factor * m);
     }
     sum
-}
-
-/// A x.
-pub fn product(a: &CsMat<f64>, x: &[f64]) -> Vec<f64> {
-    let mut y = vec![0.; a.rows()];
-    multiply(a, x, &mut y);
-    y
 }
 
 fn scaled(matrix: &CsMat<f64>, factor: f64) -> CsMat<f64> {

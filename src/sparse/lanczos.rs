@@ -4,6 +4,7 @@
 use faer::{Mat, Side};
 use sprs::CsMat;
 
+use super::vector::{add, dot};
 use super::{Factor, multiply};
 use crate::{Error, Result};
 
@@ -80,9 +81,7 @@ impl Pencil<'_> {
     }
 
     fn mass_times(&self, x: &[f64]) -> Vec<f64> {
-        let mut y = vec![0.0; x.len()];
-        multiply(self.m, x, &mut y);
-        y
+        multiply(self.m, x)
     }
 
     /// sqrt(x^T M x).
@@ -234,15 +233,6 @@ fn combine(basis: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {
     sum
 }
 
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}
-
-/// x <- x + a y.
-fn add(x: &mut [f64], a: f64, y: &[f64]) {
-    x.iter_mut().zip(y).for_each(|(x, y)| *x += a * y);
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::{Cholesky, DMatrix};
@@ -292,23 +282,19 @@ mod tests {
         let factor = Symbolic::new(k).factor(&shifted).expect("positive definite");
         let modes = smallest_modes(&factor, shift, m, count).expect("converges");
         assert_eq!(modes.len(), count.min(k.rows()));
-        let mut product = vec![0.0; k.rows()];
         for (i, (mode, &lambda)) in modes.iter().zip(lambdas).enumerate() {
             // The promised 1e-10, and the round-off of the dense eigenvalues.
             let error = (mode.lambda - lambda).abs();
             assert!(error < 2e-10 * lambda.abs().max(FLOOR * shift), "lambda {i}: {} for {lambda}", mode.lambda);
             for (j, other) in modes.iter().enumerate() {
-                multiply(m, &other.shape, &mut product);
-                let phi_m_phi = dot(&mode.shape, &product);
+                let phi_m_phi = dot(&mode.shape, &multiply(m, &other.shape));
                 let exact = if i == j { 1.0 } else { 0.0 };
                 // Vectors of near eigenvalues 1e-6 apart are known to 1e-10 / 1e-6.
                 assert!((phi_m_phi - exact).abs() < 1e-4, "phi_{i}^T M phi_{j} = {phi_m_phi}");
             }
-            multiply(m, &mode.shape, &mut product);
+            let mut product = multiply(m, &mode.shape);
             product.iter_mut().for_each(|x| *x *= -(mode.lambda + shift));
-            let mut k_phi = vec![0.0; k.rows()];
-            multiply(&shifted, &mode.shape, &mut k_phi);
-            add(&mut product, 1.0, &k_phi);
+            add(&mut product, 1.0, &multiply(&shifted, &mode.shape));
             // K is 1e3 times lambda at most here, M about 1.
             assert!(dot(&product, &product).sqrt() < 1e-6, "K phi - lambda M phi of mode {i}");
         }

@@ -6,6 +6,7 @@ pub mod factor;
 pub mod lanczos;
 pub mod ordering;
 pub mod sweeps;
+pub mod vector;
 
 pub use factor::{Factor, NotPositiveDefinite, Symbolic, UnreliablePivot};
 pub use lanczos::{Mode, smallest_modes};
@@ -13,15 +14,13 @@ pub use ordering::{Graph, elimination_order};
 
 use sprs::CsMat;
 
-/// y = A x.
+/// A x.
 ///
 /// # Panics
-/// If the lengths of `x` and `y` are not the columns and rows of `a`.
-pub fn multiply(a: &CsMat<f64>, x: &[f64], y: &mut [f64]) {
-    assert_eq!((a.rows(), a.cols()), (y.len(), x.len()), "A x = y: sizes of A and of (y, x)");
-    for (row, yi) in a.outer_iterator().zip(y) {
-        *yi = row.iter().map(|(j, aij)| aij * x[j]).sum();
-    }
+/// If `x` is not as long as `a` has columns.
+pub fn multiply(a: &CsMat<f64>, x: &[f64]) -> Vec<f64> {
+    assert_eq!(a.cols(), x.len(), "A x: columns of A and length of x");
+    a.outer_iterator().map(|row| row.iter().map(|(j, aij)| aij * x[j]).sum()).collect()
 }
 
 #[cfg(test)]
