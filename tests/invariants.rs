@@ -140,3 +140,18 @@ fn joints_of_growing_stiffness_become_glue() {
     }
     assert!(differences[3] < 1e-5, "{differences:?}");
 }
+
+/// A support on one side of a pair puts its two jumps into rows of different faces; the joint still couples them. Held
+/// points do not move, and the ledger closes: the equations hold.
+#[test]
+fn a_support_may_hold_one_side_of_an_interface() {
+    for integration in ["lobatto", "gauss_1"] {
+        let integration = format!("interfaces.interface_left.integration={integration}");
+        let sets = ["supports.A=[\"x\"]", "supports.C=[\"y\"]", "time.end=10 ms", &integration];
+        let arguments: Vec<&str> = sets.iter().flat_map(|s| ["--set", s]).collect();
+        let run = run_twin_pipes(&arguments);
+        let largest = |column: &str| run.histories[column].iter().fold(0., |m: f64, v| m.max(v.abs()));
+        assert_eq!((largest("A.ux"), largest("C.uy")), (0., 0.));
+        assert!(largest("A.uy") > 1e-7 && run.number("/energy/max_relative_error") < 1e-9);
+    }
+}
