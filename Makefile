@@ -3,7 +3,7 @@
 # make batch    all variants of geo/batch.txt, with -j2 two at a time; the peaks are in output/batch.csv
 # make book     the verification book: every case with an exact answer, written to docs/verification/
 # make picture  the README's picture, by ParaView
-# make clean    removes what was built and computed; the default mesh stays
+# make clean    removes what was built and computed; the default mesh, and meshes of your own, stay
 
 program := target/release/coralpipe
 python := .venv/bin/python
@@ -48,4 +48,5 @@ picture: all
 clean:
 	cargo clean
 	rm -rf output
-	find meshes -type f ! -name 'twin_pipes.msh' ! -name 'twin_pipes.json' -delete
+	@grep -ls '"mesh_sha256"' meshes/*.json | grep -vx 'meshes/twin_pipes.json' | while read -r record; do \
+	    rm -f "$$record" "$${record%.json}.msh"; done

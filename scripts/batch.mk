@@ -12,7 +12,8 @@ output/batch.mk: $(list) scripts/batch.py $(wildcard geo/*.json)
 	@scripts/batch.py rules $(list) > $@
 include output/batch.mk
 
-results := $(variants:%=output/%/summary.json)
+# In a folder of the batch's own: a run by hand that calls itself the same is none of its variants.
+results := $(variants:%=output/batch/%/summary.json)
 all: $(results)
 
 # A run that did not converge, or that was interrupted, leaves a summary too, but one that does not say "done".
@@ -23,13 +24,14 @@ FORCE:
 # coralpipe leaves a mesh alone whose script and parameters are the same as before; then it only gets the new time.
 meshes/%.msh:
 	@echo "mesh $*"
-	@mkdir -p output/$*
-	@$(program) mesh $(case) $(geo) > output/$*/batch.log 2>&1 && touch $@
+	@mkdir -p output/batch/$*
+	@$(program) mesh $(case) $(geo) > output/batch/$*/batch.log 2>&1 && touch $@
 
-output/%/summary.json: meshes/%.msh $(program)
+# The constants and not the mesh are handed on: the run then looks whether the mesh is still theirs.
+output/batch/%/summary.json: meshes/%.msh $(program)
 	@echo "run  $*"
 	@mkdir -p $(@D)
-	@$(program) run $(case) --mesh $< --out $(@D) > $(@D)/batch.log 2>&1
+	@$(program) run $(case) $(geo) --out $(@D) > $(@D)/batch.log 2>&1
 
 .DELETE_ON_ERROR:
-.PRECIOUS: meshes/%.msh output/%/summary.json
+.PRECIOUS: meshes/%.msh output/batch/%/summary.json

@@ -69,9 +69,9 @@ def read(list_file):
 def rules(variants):
     text = "variants := " + " ".join(v.name for v in variants) + "\n"
     for v in variants:
-        mesh, summary = f"meshes/{v.name}.msh", f"output/{v.name}/summary.json"
+        mesh, summary = f"meshes/{v.name}.msh", f"output/batch/{v.name}/summary.json"
         geo = " ".join(f"--geo {name}={written(value)}" for name, value in v.values.items())
-        text += f"{mesh}: geo := {geo}\n"
+        text += f"{mesh} {summary}: geo := {geo}\n"
         text += f"{mesh} {summary}: case := {v.case_file}\n"
         text += f"{mesh}: {v.script()} {v.case_file}\n{summary}: {v.case_file}\n"
     return text
@@ -95,7 +95,7 @@ def is_done(folder):
 
 def row(variant):
     """{column: value}; without a result only what was asked for, and why."""
-    folder = pathlib.Path("output", variant.name)
+    folder = pathlib.Path("output", "batch", variant.name)
     asked = {"variant": variant.name, "status": "done", "case": variant.case, **variant.values}
     if not is_done(folder):
         return {**asked, "status": last_words(folder)}

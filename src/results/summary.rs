@@ -5,6 +5,7 @@ use crate::solve::interface::Interface;
 use crate::solve::system::{Rayleigh, State};
 use serde::Serialize;
 use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 
 #[derive(Debug, Clone, Serialize)]
 pub struct Summary {
@@ -31,7 +32,13 @@ pub struct Summary {
 #[derive(Debug, Clone, Serialize)]
 pub struct Inputs {
     pub case: String,
+    /// of `effective_case`
     pub case_sha256: String,
+    /// the case after `--set`, with the tables of its loads
+    pub effective_case: Value,
+    /// `--set` and `--geo` of the command line
+    pub set: Vec<String>,
+    pub geo: BTreeMap<String, f64>,
     pub mesh: String,
     pub mesh_sha256: String,
     pub bonded: bool,

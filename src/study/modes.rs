@@ -9,6 +9,9 @@ use crate::solve::modes::natural_modes;
 use crate::solve::system::State;
 use crate::{Error, Result};
 
+/// Lanczos keeps three vectors a mode, each made orthogonal to all before it.
+const MOST_MODES: usize = 500;
+
 /// Prints a table and writes `modes/NAME_mode_1.vtu` ... into the results folder; shapes have phi'M phi = 1.
 pub fn command(request: &Request, count: usize) -> Result<String> {
     if count == 0 {
@@ -19,6 +22,12 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
     let prepared = Prepared::new(model)?;
+    let count = count.min(prepared.system.unknowns.count);
+    if count > MOST_MODES {
+        return Err(Error::input(format!(
+            "-n {count}: at most {MOST_MODES} modes; their vectors are kept all at once"
+        )));
+    }
     let modes = natural_modes(&prepared.system, &prepared.symbolic, count)?;
 
     let folder = request.folder(&case).join("modes");

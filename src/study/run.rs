@@ -92,7 +92,7 @@ pub fn command(request: &Request) -> Result<String> {
         factor_s: (prepared.factor + factoring.elapsed()).as_secs_f64(),
         ..Timing::default()
     };
-    let inputs = inputs(&case, &meshed.path, request.bonded)?;
+    let inputs = inputs(&case, &meshed.path, request)?;
     MARCHING.store(true, Relaxed);
     let folder = Folder::prepare(&request.folder(&case), &case.name())?;
     let solve = || {
@@ -228,15 +228,18 @@ fn with_what_is_left(error: Error, folder: &Folder) -> Error {
     }
 }
 
-fn inputs(case: &Case, mesh: &Path, bonded: bool) -> Result<Inputs> {
+fn inputs(case: &Case, mesh: &Path, request: &Request) -> Result<Inputs> {
     let content = std::fs::read(mesh).map_err(|e| Error::input(format!("{}: {e}", mesh.display())))?;
     let hash = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
     Ok(Inputs {
         case: case.path().display().to_string(),
         case_sha256: hash(case.json().to_string().as_bytes()),
+        effective_case: case.json().clone(),
+        set: request.sets.clone(),
+        geo: request.geo.clone(),
         mesh: mesh.display().to_string(),
         mesh_sha256: hash(&content),
-        bonded,
+        bonded: request.bonded,
         coralpipe: env!("CARGO_PKG_VERSION"),
     })
 }
