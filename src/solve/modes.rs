@@ -17,7 +17,8 @@ pub struct NaturalMode {
 
 /// The lowest `count` modes, in rising order.
 ///
-/// None is skipped: the eigenvalues below the last one are counted by the negative pivots of K - sigma M (Sylvester).
+/// None is skipped: those below sigma, just below the last one, are counted by the negative pivots of K - sigma M
+/// (Sylvester). Where pivots vanish sigma lies up to 10 % below the last, and the count says nothing of those between.
 pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Result<Vec<NaturalMode>> {
     let stiffness = system.closed_stiffness();
     let shift = rigid_shift(&stiffness, &system.mass);
