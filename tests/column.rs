@@ -107,7 +107,7 @@ fn the_papers_layers_settle_as_the_characteristics_say() {
 fn the_papers_layers_have_the_p_frequencies_of_their_transfer_matrix() {
     let (_, model) = column(&PAPER, 0.1, json!({ "law": "step", "peak": 0 }), 1., 1.);
     let system = System::new(&model).unwrap();
-    let modes = natural_modes(&system, &Symbolic::new(&system.mass), 4).unwrap();
+    let modes = natural_modes(&system, &system.symbolic(), 4).unwrap();
     for (mode, exact) in modes.iter().zip([10.9256, 31.4625, 52.1950, 72.1018]) {
         println!("P frequency {:.4} Hz, exact {exact}: {:.1e}", mode.frequency, mode.frequency / exact - 1.);
         assert!((mode.frequency / exact - 1.).abs() < 5e-4, "{} {exact}", mode.frequency);
@@ -151,7 +151,7 @@ fn a_free_column_has_its_modes_counted() {
     let (_, mut model) = column(&[(h, modulus, 0., density)], 0.05, json!({ "law": "step", "peak": 0 }), 1., 1.);
     model.fixed.iter_mut().for_each(|axes| axes[1] = false);
     let system = System::new(&model).unwrap();
-    let modes = natural_modes(&system, &Symbolic::new(&system.mass), 4).unwrap();
+    let modes = natural_modes(&system, &system.symbolic(), 4).unwrap();
     for (n, mode) in modes.iter().enumerate() {
         let exact = n as f64 * f64::sqrt(modulus / density) / (2. * h);
         // consistent mass errs upward by (k h)^2 / 24, at n = 3 below 1e-4

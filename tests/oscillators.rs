@@ -7,7 +7,7 @@ use coralpipe::model::resolve::Model;
 use coralpipe::solve::energy::Ledger;
 use coralpipe::solve::modes::{natural_modes, rayleigh};
 use coralpipe::solve::system::{State, System};
-use coralpipe::sparse::{Symbolic, multiply};
+use coralpipe::sparse::multiply;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use support::{Drawing, dot, root};
@@ -107,7 +107,7 @@ fn bonded_ring(dt: f64, steps: usize, peak: f64) -> Model {
 fn decrement(steps: usize) -> f64 {
     let mut model = bonded_ring(1., steps, 0.);
     let system = System::new(&model).unwrap();
-    let modes = natural_modes(&system, &Symbolic::new(&system.mass), 2).unwrap();
+    let modes = natural_modes(&system, &system.symbolic(), 2).unwrap();
     let (shape, omega) = (&modes[0].shape, 2. * PI * modes[0].frequency);
     let (xi, omega_d) = (0.05_f64, omega * (1. - 0.05_f64.powi(2)).sqrt());
     let system = system.with_damping(rayleigh(xi, [modes[0].frequency, modes[1].frequency]), false);

@@ -6,14 +6,11 @@ use super::interface::JointState;
 use super::system::System;
 use crate::model::case::Newton;
 use crate::sparse::{Factor, NotPositiveDefinite, Symbolic};
-use faer::Mat;
 use sprs::CsMat;
 
 /// A x + r(j) = b with x the unknowns, j the jumps at their end, r the joint forces.
 pub struct Condensed {
     factor: Factor,
-    /// L_cc, lower triangular: the last rows and columns of the factor
-    trailing: Mat<f64>,
     contact: Contact,
 }
 
@@ -50,12 +47,14 @@ impl Condensed {
         let contact = match reference {
             Reference::Bodies => Contact::new(schur, options),
             Reference::ClosedJoints => {
-                let closed = system.interface.points.iter().map(|p| p.law.closed_stiffness());
-                system.interface.each_tangent(closed, |i, j, value| schur[(i, j)] -= value);
+                for point in &system.interface.points {
+                    let closed = point.law.closed_stiffness();
+                    system.interface.tangent(point, &closed, |i, j, value| schur[(i, j)] -= value);
+                }
                 Contact::new(schur, options).stabilised()
             }
         };
-        Ok(Condensed { factor, trailing, contact })
+        Ok(Condensed { factor, contact })
     }
 
     /// Solves for `right_hand_side`, the joints moving on from `old`; `guess` of the jumps starts Newton.
@@ -68,14 +67,12 @@ impl Condensed {
         damping: Option<JointDamping>,
     ) -> Result<Solved, Unsettled> {
         let mut x = right_hand_side;
-        self.factor.forward(&mut x);
-        // Between the sweeps y_c = L_cc^-1 (...) becomes L_cc' j, with j the jumps that satisfy the joints.
-        let y_c = &mut x[system.unknowns.first_jump..];
-        let right_hand_side = lower_times(&self.trailing, y_c);
+        self.factor.condense(&mut x);
+        let right_hand_side = system.jumps(&x).to_vec();
         let problem = Problem { interface: &system.interface, right_hand_side: &right_hand_side, old, damping };
         let solution = self.contact.solve(&problem, guess)?;
-        y_c.copy_from_slice(&lower_transposed_times(&self.trailing, &solution.jumps));
-        self.factor.backward(&mut x);
+        x[system.unknowns.first_jump..].copy_from_slice(&solution.jumps);
+        self.factor.expand(&mut x);
         Ok(Solved {
             x,
             joints: solution.responses.iter().map(JointState::from).collect(),
@@ -83,20 +80,4 @@ impl Condensed {
             displacement_test: solution.displacement_test,
         })
     }
-}
-
-/// L x.
-fn lower_times(l: &Mat<f64>, x: &[f64]) -> Vec<f64> {
-    let mut y = vec![0.; x.len()];
-    for (j, xj) in x.iter().enumerate() {
-        let column = &l.col_as_slice(j)[j..];
-        y[j..].iter_mut().zip(column).for_each(|(y, l)| *y += l * xj);
-    }
-    y
-}
-
-/// L' x.
-fn lower_transposed_times(l: &Mat<f64>, x: &[f64]) -> Vec<f64> {
-    let column = |j: usize| l.col_as_slice(j)[j..].iter().zip(&x[j..]);
-    (0..x.len()).map(|j| column(j).map(|(l, x)| l * x).sum()).collect()
 }

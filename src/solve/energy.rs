@@ -44,7 +44,7 @@ pub struct Ledger {
 
 impl Ledger {
     pub fn start(system: &System, state: &State) -> Ledger {
-        let now = stored(system, state);
+        let (now, _) = stored(system, state, &state.v);
         Ledger {
             now: Energies { work: now.kinetic + now.strain + now.joint, ..now },
             peak: now.kinetic + now.strain + now.joint,
@@ -60,15 +60,13 @@ impl Ledger {
         let load = system.load(new.time);
         let joint_force = joint_force(system, new);
         let du: Vec<f64> = new.q.iter().zip(&old.q).map(|(n, o)| n - o).collect();
-        let mean_velocity: Vec<f64> = new.v.iter().zip(&old.v).map(|(n, o)| (n + o) / 2.).collect();
 
         let work = mean_dot(&self.load, &load, &du);
         let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
-        let drained = |c: &CsMat<f64>| dt * dot(&mean_velocity, &multiply(c, &mean_velocity));
-        let boundary = system.dashpots.as_ref().map_or(0., drained);
-        let damping = drained(&system.damping) - boundary;
+        let (stored, drained) = stored(system, new, &old.v);
+        let boundary = system.dashpots.as_ref().map_or(0., |c| dt * drained_by(c, &old.v, &new.v));
+        let damping = dt * drained - boundary;
         let friction = friction(system, old, new);
-        let stored = stored(system, new);
         let mut now = Energies {
             work: self.now.work + work,
             damping: self.now.damping + damping,
@@ -108,18 +106,30 @@ impl Ledger {
     }
 }
 
-/// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store.
-fn stored(system: &System, state: &State) -> Energies {
+/// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store [J]; and w'Cw [W], w the mean of the old velocity and the new.
+fn stored(system: &System, state: &State, old_v: &[f64]) -> (Energies, f64) {
+    let products = &system.products;
+    let motion: Vec<[f64; 3]> =
+        (0..old_v.len()).map(|i| [state.q[i], state.v[i], (state.v[i] + old_v[i]) / 2.]).collect();
+    let [strain, kinetic, drained] =
+        products.pattern.quadratic_forms([&products.stiffness, &products.mass, &products.damping], &motion);
     let jumps = system.jumps(&state.q);
     let joint = |(point, joint): (&super::interface::JointPoint, &super::interface::JointState)| {
         point.area * point.law.stored_energy(system.interface.local(point, jumps), joint.slip)
     };
-    Energies {
-        kinetic: dot(&state.v, &multiply(&system.mass, &state.v)) / 2.,
-        strain: dot(&state.q, &multiply(&system.stiffness, &state.q)) / 2.,
+    let stored = Energies {
+        kinetic: kinetic / 2.,
+        strain: strain / 2.,
         joint: system.interface.points.iter().zip(&state.joints).map(joint).sum(),
         ..Energies::default()
-    }
+    };
+    (stored, drained)
+}
+
+/// w'Cw [W], w the mean velocity.
+fn drained_by(c: &CsMat<f64>, old: &[f64], new: &[f64]) -> f64 {
+    let mean: Vec<f64> = new.iter().zip(old).map(|(n, o)| (n + o) / 2.).collect();
+    dot(&mean, &multiply(c, &mean))
 }
 
 /// tau times the growth of plastic slip, over the area.

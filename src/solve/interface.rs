@@ -114,16 +114,19 @@ impl Interface {
         r
     }
 
-    /// Calls `add(row, column, value)` for dr/dj = sum area N' R' D R N [N/m], D per point.
-    pub fn each_tangent(&self, tangents: impl Iterator<Item = Matrix2<f64>>, mut add: impl FnMut(usize, usize, f64)) {
-        for (point, d) in self.points.iter().zip(tangents) {
-            let k = point.rotation().transpose() * d * point.rotation() * point.area;
-            for (i, axis_i, n_i) in self.entries(point) {
-                for (j, axis_j, n_j) in self.entries(point) {
-                    add(i, j, n_i * n_j * k[(axis_i, axis_j)]);
-                }
+    /// Calls `add(row, column, value)` for a point's part of dr/dj = sum area N' R' D R N [N/m].
+    pub fn tangent(&self, point: &JointPoint, d: &Matrix2<f64>, mut add: impl FnMut(usize, usize, f64)) {
+        let k = point.rotation().transpose() * d * point.rotation() * point.area;
+        for (i, axis_i, n_i) in self.entries(point) {
+            for (j, axis_j, n_j) in self.entries(point) {
+                add(i, j, n_i * n_j * k[(axis_i, axis_j)]);
             }
         }
+    }
+
+    /// Where in the vector of jumps a point finds its own.
+    pub fn places<'a>(&'a self, point: &'a JointPoint) -> impl Iterator<Item = usize> + 'a {
+        self.entries(point).map(|(i, ..)| i)
     }
 
     /// (place in j, axis, N) of every jump component a point sees.

@@ -6,7 +6,7 @@
 use super::condensed::{Condensed, Reference};
 use super::contact::{JointDamping, Unsettled};
 use super::newmark::Constants;
-use super::system::{State, System, combine};
+use super::system::{Products, State, System, combine};
 use crate::model::case::{Integrator, Newton};
 use crate::sparse::vector::add;
 use crate::sparse::{NotPositiveDefinite, Symbolic, multiply};
@@ -108,12 +108,12 @@ impl Dynamic {
     fn right_hand_side(&self, system: &System, old: &State, time: f64) -> Vec<f64> {
         let before = |i: usize| [old.q[i], old.v[i], old.a[i]];
         let weight = 1. + self.hht;
-        let for_mass: Vec<f64> = (0..old.q.len()).map(|i| self.constants.for_mass(before(i))).collect();
-        let for_damping: Vec<f64> =
-            (0..old.q.len()).map(|i| weight * self.constants.for_damping(before(i)) + self.hht * old.v[i]).collect();
-        let mut rhs = system.load(time);
-        add(&mut rhs, 1., &multiply(&system.mass, &for_mass));
-        add(&mut rhs, 1., &multiply(&system.damping, &for_damping));
+        let for_mass = |i: usize| self.constants.for_mass(before(i));
+        let for_damping = |i: usize| weight * self.constants.for_damping(before(i)) + self.hht * old.v[i];
+        let for_both: Vec<[f64; 2]> = (0..old.q.len()).map(|i| [for_mass(i), for_damping(i)]).collect();
+        let Products { pattern, mass, damping, .. } = &system.products;
+        let mut rhs = pattern.sum_of_products([mass, damping], &for_both);
+        add(&mut rhs, 1., &system.load(time));
         if self.hht != 0. {
             let mut change = system.load(time);
             add(&mut change, -1., &system.load(old.time));

@@ -6,6 +6,7 @@ use super::unknowns::Unknowns;
 use crate::Result;
 use crate::model::resolve::Model;
 use crate::physics::pulse::Pulse;
+use crate::sparse::{Symbolic, Upper};
 use serde::Serialize;
 use sprs::CsMat;
 
@@ -20,6 +21,7 @@ pub struct System {
     pub damping: CsMat<f64>,
     /// the part of C that lets waves out, if any [N s/m]
     pub dashpots: Option<CsMat<f64>>,
+    pub products: Products,
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
     pub interface: Interface,
@@ -27,6 +29,14 @@ pub struct System {
     pub gravity: Vec<f64>,
     /// spatial vector [N per unit of the pulse] and history
     loads: Vec<(Vec<f64>, Pulse)>,
+}
+
+/// K, M and C as every step reads them: the upper triangles' values.
+pub struct Products {
+    pub pattern: Upper,
+    pub stiffness: Vec<f64>,
+    pub mass: Vec<f64>,
+    pub damping: Vec<f64>,
 }
 
 /// Rayleigh damping C = alpha M + beta K.
@@ -58,8 +68,12 @@ impl System {
             Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump);
         let loads = model.loads.iter().map(|load| (assembly::load(model, &unknowns, load), load.pulse.clone()));
         let dashpots = (!model.dashpots.is_empty()).then(|| assembly::dashpots(model, &unknowns, scaled(&mass, 0.)));
+        let damping = dashpots.clone().unwrap_or_else(|| scaled(&mass, 0.));
+        let pattern = Upper::new(&mass);
+        let [k, m, c] = [&stiffness, &mass, &damping].map(|matrix| pattern.values(matrix));
         Ok(System {
-            damping: dashpots.clone().unwrap_or_else(|| scaled(&mass, 0.)),
+            products: Products { pattern, stiffness: k, mass: m, damping: c },
+            damping,
             dashpots,
             joint_beta: None,
             gravity: assembly::gravity(model, &unknowns),
@@ -74,11 +88,18 @@ impl System {
     /// C = alpha M + beta K of the bodies and the dashpots; with `joints` beta also damps the closed joints, as the
     /// paper's C(U).
     pub fn with_damping(self, Rayleigh { alpha, beta }: Rayleigh, joints: bool) -> System {
+        let damping = combine(&[(alpha, &self.mass), (beta, &self.stiffness), (1., &self.damping)]);
         System {
-            damping: combine(&[(alpha, &self.mass), (beta, &self.stiffness), (1., &self.damping)]),
+            products: Products { damping: self.products.pattern.values(&damping), ..self.products },
+            damping,
             joint_beta: joints.then_some(beta),
             ..self
         }
+    }
+
+    /// The pattern of all matrices, ready for factors that leave the jumps for last.
+    pub fn symbolic(&self) -> Symbolic {
+        Symbolic::bordered(&self.mass, self.unknowns.first_jump)
     }
 
     /// f(t) [N].
@@ -100,10 +121,11 @@ impl System {
     pub fn closed_stiffness(&self) -> CsMat<f64> {
         let mut closed = self.stiffness.clone();
         let first = self.unknowns.first_jump;
-        let per_point = self.interface.points.iter().map(|p| p.law.closed_stiffness());
-        self.interface.each_tangent(per_point, |i, j, value| {
-            *closed.get_mut(first + i, first + j).expect("the pattern holds every joint element") += value;
-        });
+        for point in &self.interface.points {
+            self.interface.tangent(point, &point.law.closed_stiffness(), |i, j, value| {
+                *closed.get_mut(first + i, first + j).expect("the pattern holds every joint element") += value;
+            });
+        }
         closed
     }
 }

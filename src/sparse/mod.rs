@@ -6,11 +6,13 @@ pub mod factor;
 pub mod lanczos;
 pub mod ordering;
 pub mod sweeps;
+pub mod upper;
 pub mod vector;
 
 pub use factor::{Factor, NotPositiveDefinite, Symbolic, UnreliablePivot};
 pub use lanczos::{Mode, smallest_modes};
 pub use ordering::{Graph, elimination_order};
+pub use upper::Upper;
 
 use sprs::CsMat;
 

@@ -5,6 +5,8 @@
 //! from one copy, L comes several times slower. A block of `W` rows (or columns) is interleaved, so that `W` sums
 //! run at once. Diagonal entries are stored inverted.
 
+use std::ops::Range;
+
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 use super::Factor;
@@ -17,21 +19,54 @@ pub(super) struct Panels {
     start: Vec<usize>,
     /// The rows of each supernode, ascending: its own columns, then those below.
     rows: Vec<usize>,
-    /// Where each supernode begins and ends in faer's values: dense, column by column, upper triangle included.
-    dense: Vec<usize>,
+    /// Where each supernode finds itself in faer's values.
+    places: Vec<Place>,
+    /// The supernode that begins at the border between leading and trailing unknowns.
+    border: usize,
+}
+
+/// A dense part of faer's values, column by column, upper triangle included.
+struct Place {
+    /// of its first diagonal entry
+    first: usize,
+    /// from an entry to the one on its right
+    stride: usize,
+}
+
+/// The values of one supernode.
+pub(super) struct Panel<'a> {
+    values: &'a [f64],
+    stride: usize,
+    height: usize,
+}
+
+impl<'a> Panel<'a> {
+    pub fn column(&self, j: usize) -> &'a [f64] {
+        &self.values[j * self.stride..][..self.height]
+    }
 }
 
 impl Panels {
-    pub fn new(supernodes: &SymbolicSupernodalCholesky<usize>) -> Self {
-        let mut columns = supernodes.supernode_begin().to_vec();
-        columns.push(supernodes.nrows());
-        let (mut start, mut rows) = (vec![0], Vec::new());
-        for s in 0..supernodes.n_supernodes() {
-            rows.extend(columns[s]..columns[s + 1]);
-            rows.extend_from_slice(supernodes.supernode(s).pattern());
-            start.push(rows.len());
+    /// A supernode that reaches over `border` becomes two.
+    pub fn new(supernodes: &SymbolicSupernodalCholesky<usize>, border: usize) -> Self {
+        let n = supernodes.nrows();
+        let ends = supernodes.supernode_begin().iter().skip(1).copied().chain([n]);
+        let mut panels = Panels { columns: vec![], start: vec![0], rows: vec![], places: vec![], border: 0 };
+        for (s, (&begin, end)) in supernodes.supernode_begin().iter().zip(ends).enumerate() {
+            let pattern = supernodes.supernode(s).pattern();
+            let (values, stride) = (supernodes.col_ptr_for_val()[s], end - begin + pattern.len());
+            let cut = if (begin + 1..end).contains(&border) { border } else { end };
+            for (from, to) in [(begin, cut), (cut, end)].into_iter().filter(|(from, to)| from < to) {
+                panels.border += usize::from(to <= border);
+                panels.columns.push(from);
+                panels.rows.extend(from..end);
+                panels.rows.extend_from_slice(pattern);
+                panels.start.push(panels.rows.len());
+                panels.places.push(Place { first: values + (from - begin) * (stride + 1), stride });
+            }
         }
-        Panels { columns, start, rows, dense: supernodes.col_ptr_for_val().to_vec() }
+        panels.columns.push(n);
+        panels
     }
 
     pub fn unknowns(&self) -> usize {
@@ -52,33 +87,35 @@ impl Panels {
         &self.rows[self.start[s]..self.start[s + 1]]
     }
 
-    /// Values of supernode `s` out of faer's, column by column.
-    pub fn dense<'a>(&self, s: usize, values: &'a [f64]) -> &'a [f64] {
-        &values[self.dense[s]..self.dense[s + 1]]
+    /// Values of supernode `s` out of faer's.
+    pub fn dense<'a>(&self, s: usize, values: &'a [f64]) -> Panel<'a> {
+        let Place { first, stride } = self.places[s];
+        Panel { values: &values[first..], stride, height: self.rows(s).len() }
     }
 
     /// L out of faer's values, as the forward sweep reads it.
     pub fn pack_forward(&self, values: &[f64]) -> Vec<f64> {
-        let mut packed = Vec::with_capacity(self.entries());
+        let mut packed = Vec::with_capacity(self.entries(0..self.count()));
         for s in 0..self.count() {
-            let (height, panel) = (self.rows(s).len(), self.dense(s, values));
-            self.each_forward(s, |i, j| packed.push(stored(panel[j * height + i], i == j)));
+            let panel = self.dense(s, values);
+            self.each_forward(s, |i, j| packed.push(stored(panel.column(j)[i], i == j)));
         }
         packed
     }
 
     /// L out of faer's values, as the backward sweep reads it.
     pub fn pack_backward(&self, values: &[f64]) -> Vec<f64> {
-        let mut packed = Vec::with_capacity(self.entries());
+        let mut packed = Vec::with_capacity(self.entries(0..self.count()));
         for s in (0..self.count()).rev() {
-            let (height, panel) = (self.rows(s).len(), self.dense(s, values));
-            self.each_backward(s, |i, j| packed.push(stored(panel[j * height + i], i == j)));
+            let panel = self.dense(s, values);
+            self.each_backward(s, |i, j| packed.push(stored(panel.column(j)[i], i == j)));
         }
         packed
     }
 
-    fn entries(&self) -> usize {
-        (0..self.count()).map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2).sum()
+    /// Number of entries of some supernodes.
+    fn entries(&self, supernodes: Range<usize>) -> usize {
+        supernodes.map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2).sum()
     }
 
     /// Visits the entries (row, column) of supernode `s` in the order of the forward copy, counted inside it.
@@ -138,9 +175,30 @@ impl Factor {
     /// # Panics
     /// If `x` has not one entry for each unknown; likewise the functions below.
     pub fn forward(&self, x: &mut [f64]) {
+        self.sweep_forward(0..self.panels.count(), x);
+    }
+
+    /// x <- L^-T x.
+    pub fn backward(&self, x: &mut [f64]) {
+        self.sweep_backward(0..self.panels.count(), x);
+    }
+
+    /// Eliminates the unknowns before the border i: x_i <- L_ii^-1 x_i, x_c <- x_c - A_ci A_ii^-1 x_i. What is left for
+    /// the others is S x_c, S the Schur complement.
+    pub fn condense(&self, x: &mut [f64]) {
+        self.sweep_forward(0..self.panels.border, x);
+    }
+
+    /// Back from the solution x_c of the unknowns behind the border to that of all: x_i <- L_ii^-T (x_i - L_ci^T x_c).
+    pub fn expand(&self, x: &mut [f64]) {
+        self.sweep_backward(0..self.panels.border, x);
+    }
+
+    /// Over some first supernodes.
+    fn sweep_forward(&self, supernodes: Range<usize>, x: &mut [f64]) {
         assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
         let mut l = &self.forward[..];
-        for s in 0..self.panels.count() {
+        for s in supernodes {
             let (width, rows) = (self.panels.width(s), self.panels.rows(s));
             for (first, size) in blocks(0, width) {
                 of_size!(size, solve_rows(&mut l, &mut x[rows[0]..], first));
@@ -151,11 +209,11 @@ impl Factor {
         }
     }
 
-    /// x <- L^-T x.
-    pub fn backward(&self, x: &mut [f64]) {
+    /// Over some first supernodes, from the last of them.
+    fn sweep_backward(&self, supernodes: Range<usize>, x: &mut [f64]) {
         assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
-        let mut l = &self.backward[..];
-        for s in (0..self.panels.count()).rev() {
+        let mut l = &self.backward[self.panels.entries(supernodes.end..self.panels.count())..];
+        for s in supernodes.rev() {
             let (width, rows) = (self.panels.width(s), self.panels.rows(s));
             for (first, size) in blocks(0, width).rev() {
                 of_size!(size, solve_columns(&mut l, x, &rows[first..]));

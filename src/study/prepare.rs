@@ -30,7 +30,7 @@ impl Prepared {
         if system.unknowns.count == 0 {
             return Err(Error::input("nothing can move: supports hold every node of the mesh"));
         }
-        let symbolic = Symbolic::new(&system.mass);
+        let symbolic = system.symbolic();
         let setup = start.elapsed();
 
         let start = Instant::now();

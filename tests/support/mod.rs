@@ -10,7 +10,6 @@ use coralpipe::solve::march::March;
 use coralpipe::solve::start;
 use coralpipe::solve::step::Scheme;
 use coralpipe::solve::system::{State, System};
-use coralpipe::sparse::Symbolic;
 use nalgebra::DMatrix;
 use serde_json::Value;
 use sprs::CsMat;
@@ -111,12 +110,12 @@ pub fn model(json: &Value, mesh: &Mesh) -> Model {
 /// The states at t = 0, dt, 2 dt ... of a model, from rest; every step is one step, never cut.
 pub fn march(model: &Model, system: &System, watch: impl FnMut(&State)) {
     let rest = State::at_rest(system);
-    let start = start::with_acceleration(system, &Symbolic::new(&system.mass), rest, model.start).unwrap();
+    let start = start::with_acceleration(system, &system.symbolic(), rest, model.start).unwrap();
     march_from(start, model, system, watch);
 }
 
 pub fn march_from(start: State, model: &Model, system: &System, mut watch: impl FnMut(&State)) {
-    let symbolic = Symbolic::new(&system.mass);
+    let symbolic = system.symbolic();
     let mut march =
         March::new(system, &symbolic, Scheme::Dynamic(model.integrator), model.time.step, model.newton).unwrap();
     watch(&start);

@@ -1,0 +1,193 @@
+//! Solves with S + sum area N' R' D R N for the many sets of joint tangents D that a run goes through.
+//!
+//! The inverse for one set is kept, dense; where few joints differ from it, Woodbury's formula corrects the solution, and
+//! where many do, the inverse itself. So a change of status costs by what changed, not by the number of joints.
+
+use super::interface::Interface;
+use faer::linalg::solvers::{DenseSolveCore, Solve};
+use faer::{Accum, ColRef, Mat, Par};
+use nalgebra::Matrix2;
+
+/// Share of the unknowns that may differ before the inverse is corrected: a solve then still costs about one product.
+const MANY: usize = 8;
+
+#[derive(Default)]
+pub struct Inverse {
+    kept: Option<Kept>,
+}
+
+struct Kept {
+    /// D of every joint point that the inverse belongs to [Pa/m]
+    tangents: Vec<Matrix2<f64>>,
+    inverse: Mat<f64>,
+}
+
+impl Inverse {
+    /// (S + sum area N' R' D R N)^-1 f, D per joint point. Zeros in f cost nothing.
+    pub fn solve(&mut self, schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>], f: &[f64]) -> Vec<f64> {
+        let (kept, change) = self.near(schur, interface, tangents);
+        let mut x = kept.times(f);
+        if let Some(change) = change {
+            // x - R E (1 + C E'R E)^-1 C E'x, E the columns of the identity that the change touches
+            let weights = change.weights(&kept.inverse, ColRef::from_slice(&change.places_of(&x)).as_mat());
+            for (k, &j) in change.places.iter().enumerate() {
+                add_column(&mut x, -weights[(k, 0)], &kept.inverse, j);
+            }
+        }
+        x
+    }
+
+    /// Lets go of an inverse that many corrections have made inexact.
+    pub fn forget(&mut self) {
+        self.kept = None;
+    }
+
+    /// An inverse whose tangents differ from the given ones in few places, and how.
+    fn near(&mut self, schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>]) -> (&Kept, Option<Change>) {
+        let limit = interface.count / MANY;
+        let change = self.kept.as_ref().map(|kept| Change::new(interface, &kept.tangents, tangents));
+        let kept = match (self.kept.take(), &change) {
+            (Some(kept), Some(change)) if change.places.len() <= limit => kept,
+            (Some(kept), Some(change)) if change.places.len() <= 4 * limit => kept.corrected(change, tangents),
+            _ => Kept::new(schur, interface, tangents),
+        };
+        let rest = change.filter(|c| kept.tangents != tangents && !c.places.is_empty());
+        (self.kept.insert(kept), rest)
+    }
+}
+
+impl Kept {
+    fn new(schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>]) -> Kept {
+        let mut matrix = schur.clone();
+        for (point, d) in interface.points.iter().zip(tangents) {
+            interface.tangent(point, d, |i, j, value| matrix[(i, j)] += value);
+        }
+        Kept { tangents: tangents.to_vec(), inverse: matrix.partial_piv_lu().inverse() }
+    }
+
+    /// R - R E (1 + C E'R E)^-1 C E'R.
+    fn corrected(self, change: &Change, tangents: &[Matrix2<f64>]) -> Kept {
+        let (mut inverse, n) = (self.inverse, change.places.len());
+        let rows = Mat::from_fn(n, inverse.ncols(), |k, j| inverse[(change.places[k], j)]);
+        let columns = Mat::from_fn(inverse.nrows(), n, |i, k| inverse[(i, change.places[k])]);
+        let weights = change.weights(&inverse, rows.as_ref());
+        faer::linalg::matmul::matmul(&mut inverse, Accum::Add, &columns, &weights, -1., Par::Seq);
+        Kept { tangents: tangents.to_vec(), inverse }
+    }
+
+    /// R f.
+    fn times(&self, f: &[f64]) -> Vec<f64> {
+        if f.iter().filter(|f| **f != 0.).count() > f.len() / 4 {
+            return dense_times(&self.inverse, f);
+        }
+        let mut x = vec![0.; f.len()];
+        for (j, &f_j) in f.iter().enumerate().filter(|(_, f_j)| **f_j != 0.) {
+            add_column(&mut x, f_j, &self.inverse, j);
+        }
+        x
+    }
+}
+
+/// What some joint points' tangents add to the matrix: E C E', with E picking the places they touch.
+struct Change {
+    /// ascending
+    places: Vec<usize>,
+    /// C [N/m]
+    matrix: Mat<f64>,
+}
+
+impl Change {
+    fn new(interface: &Interface, from: &[Matrix2<f64>], to: &[Matrix2<f64>]) -> Change {
+        let points = || interface.points.iter().zip(from).zip(to).filter(|((_, from), to)| from != to);
+        let mut places = Vec::new();
+        points().for_each(|((point, _), _)| places.extend(interface.places(point)));
+        places.sort_unstable();
+        places.dedup();
+        let mut matrix = Mat::zeros(places.len(), places.len());
+        let at = |i: usize| places.binary_search(&i).expect("collected from the same points");
+        for ((point, from), to) in points() {
+            interface.tangent(point, &(to - from), |i, j, value| matrix[(at(i), at(j))] += value);
+        }
+        Change { places, matrix }
+    }
+
+    /// (1 + C E'R E)^-1 C X for the rows X that are E' of something.
+    fn weights(&self, inverse: &Mat<f64>, x: faer::MatRef<f64>) -> Mat<f64> {
+        let n = self.places.len();
+        let inner = Mat::from_fn(n, n, |i, j| inverse[(self.places[i], self.places[j])]);
+        let system = Mat::<f64>::identity(n, n) + &self.matrix * inner;
+        system.partial_piv_lu().solve(&self.matrix * x)
+    }
+
+    /// E'x.
+    fn places_of(&self, x: &[f64]) -> Vec<f64> {
+        self.places.iter().map(|&i| x[i]).collect()
+    }
+}
+
+/// A x.
+pub fn dense_times(a: &Mat<f64>, x: &[f64]) -> Vec<f64> {
+    let product = a * ColRef::from_slice(x);
+    product.iter().copied().collect()
+}
+
+/// x + factor A e_j.
+fn add_column(x: &mut [f64], factor: f64, a: &Mat<f64>, j: usize) {
+    x.iter_mut().zip(a.col_as_slice(j)).for_each(|(x, a)| *x += factor * a);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::case::Integration;
+    use crate::model::mesh::Mesh;
+    use crate::model::split::{Joint, Pair};
+    use crate::physics::joint::{Friction, JointLaw};
+    use crate::physics::shape::Shape;
+
+    const PAIRS: usize = 40;
+
+    /// Joints along the x axis.
+    fn interface(integration: Integration) -> Interface {
+        let points = (0..2 * PAIRS).map(|n| [(n % PAIRS) as f64, 0.]).collect();
+        let mesh = Mesh { points, ..Mesh::default() };
+        let pairs: Vec<Pair> = (0..PAIRS).map(|p| Pair { ground: p, body: PAIRS + p }).collect();
+        let joint =
+            |p: usize| Joint { seam: 0, shape: Shape::Line2, pairs: vec![p - 1, p], ground_cell: 0, body_cell: 0 };
+        let joints: Vec<Joint> = (1..PAIRS).map(joint).collect();
+        let law =
+            JointLaw { normal_stiffness: 50., tangential_stiffness: 20., friction: Friction::Coulomb(0.3), gap: 0. };
+        let jumps: Vec<_> = (0..PAIRS).map(|p| [Some(2 * p), Some(2 * p + 1)]).collect();
+        Interface::new(&mesh, &pairs, &joints, &vec![(law, integration); joints.len()], &jumps, 0)
+    }
+
+    /// Statuses that change here and there, once nearly everywhere: corrected solutions, corrected inverses, new ones.
+    #[test]
+    fn every_solution_is_that_of_the_whole_matrix() {
+        for integration in [Integration::Lobatto, Integration::Gauss1] {
+            let interface = interface(integration);
+            let n = interface.count;
+            let schur = Mat::from_fn(n, n, |i, j| if i == j { 30. } else { -0.2 / (1. + i.abs_diff(j) as f64) });
+            let branches = [Matrix2::zeros(), Matrix2::new(20., 0., 0., 50.), Matrix2::new(0., -15., 0., 50.)];
+            let mut tangents = vec![branches[1]; interface.points.len()];
+            let mut inverse = Inverse::default();
+            for round in 0..60 {
+                let changes = if round == 30 { 70 } else { round % 7 };
+                for k in 0..changes {
+                    let point = (17 * round + 5 * k) % tangents.len();
+                    tangents[point] = branches[(round + k) % 3];
+                }
+                let f: Vec<f64> =
+                    (0..n).map(|i| if round % 2 == 0 || i < 3 { (i + round) as f64 } else { 0. }).collect();
+                let x = inverse.solve(&schur, &interface, &tangents, &f);
+                let mut product = dense_times(&schur, &x);
+                for (point, d) in interface.points.iter().zip(&tangents) {
+                    interface.tangent(point, d, |i, j, value| product[i] += value * x[j]);
+                }
+                let error = product.iter().zip(&f).fold(0., |e: f64, (p, f)| e.max((p - f).abs()));
+                // Sixty corrections of a matrix of condition 10, f up to 140.
+                assert!(error < 1e-10, "{integration:?}, round {round}: {error:e}");
+            }
+        }
+    }
+}
