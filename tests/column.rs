@@ -6,7 +6,6 @@ use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::resolve::Model;
 use coralpipe::solve::modes::natural_modes;
 use coralpipe::solve::system::System;
-use coralpipe::sparse::Symbolic;
 use serde_json::{Value, json};
 use support::{Drawing, node_at};
 
