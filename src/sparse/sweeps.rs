@@ -3,7 +3,7 @@
 //! A sweep costs the reading of L and little else, so every value is read once, in ascending order of memory: the
 //! forward copy holds blocks of rows, the backward copy blocks of columns from the last to the first. Read backwards
 //! from one copy, L comes several times slower. A block of `W` rows (or columns) is interleaved, so that `W` sums
-//! run at once. Diagonal entries are stored inverted.
+//! run at once. Diagonal entries are stored inverted. Several right-hand sides share the reading: `K` lanes side by side.
 
 use std::ops::Range;
 
@@ -157,17 +157,20 @@ fn blocks(from: usize, to: usize) -> impl DoubleEndedIterator<Item = (usize, usi
 macro_rules! of_size {
     ($size:expr, $f:ident($($argument:expr),*)) => {
         match $size {
-            1 => $f::<1>($($argument),*),
-            2 => $f::<2>($($argument),*),
-            3 => $f::<3>($($argument),*),
-            4 => $f::<4>($($argument),*),
-            5 => $f::<5>($($argument),*),
-            6 => $f::<6>($($argument),*),
-            7 => $f::<7>($($argument),*),
-            _ => $f::<BLOCK>($($argument),*),
+            1 => $f::<1, K>($($argument),*),
+            2 => $f::<2, K>($($argument),*),
+            3 => $f::<3, K>($($argument),*),
+            4 => $f::<4, K>($($argument),*),
+            5 => $f::<5, K>($($argument),*),
+            6 => $f::<6, K>($($argument),*),
+            7 => $f::<7, K>($($argument),*),
+            _ => $f::<BLOCK, K>($($argument),*),
         }
     };
 }
+
+/// Several right-hand sides at once: row i holds the entries of unknown i.
+pub type Lanes<const K: usize> = [[f64; K]];
 
 impl Factor {
     /// x <- L^-1 x.
@@ -175,50 +178,12 @@ impl Factor {
     /// # Panics
     /// If `x` has not one entry for each unknown; likewise the functions below.
     pub fn forward(&self, x: &mut [f64]) {
-        self.sweep_forward(0..self.panels.count(), x);
+        self.sweep_forward(0..self.panels.count(), one_lane(x));
     }
 
     /// x <- L^-T x.
     pub fn backward(&self, x: &mut [f64]) {
-        self.sweep_backward(0..self.panels.count(), x);
-    }
-
-    /// Eliminates the unknowns before the border i: x_i <- L_ii^-1 x_i, x_c <- x_c - A_ci A_ii^-1 x_i. What is left for
-    /// the others is S x_c, S the Schur complement.
-    pub fn condense(&self, x: &mut [f64]) {
-        self.sweep_forward(0..self.panels.border, x);
-    }
-
-    /// Back from the solution x_c of the unknowns behind the border to that of all: x_i <- L_ii^-T (x_i - L_ci^T x_c).
-    pub fn expand(&self, x: &mut [f64]) {
-        self.sweep_backward(0..self.panels.border, x);
-    }
-
-    /// Over some first supernodes.
-    fn sweep_forward(&self, supernodes: Range<usize>, x: &mut [f64]) {
-        assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
-        let mut l = &self.forward[..];
-        for s in supernodes {
-            let (width, rows) = (self.panels.width(s), self.panels.rows(s));
-            for (first, size) in blocks(0, width) {
-                of_size!(size, solve_rows(&mut l, &mut x[rows[0]..], first));
-            }
-            for (first, size) in blocks(width, rows.len()) {
-                of_size!(size, subtract_rows(&mut l, x, &rows[..width], &rows[first..]));
-            }
-        }
-    }
-
-    /// Over some first supernodes, from the last of them.
-    fn sweep_backward(&self, supernodes: Range<usize>, x: &mut [f64]) {
-        assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
-        let mut l = &self.backward[self.panels.entries(supernodes.end..self.panels.count())..];
-        for s in supernodes.rev() {
-            let (width, rows) = (self.panels.width(s), self.panels.rows(s));
-            for (first, size) in blocks(0, width).rev() {
-                of_size!(size, solve_columns(&mut l, x, &rows[first..]));
-            }
-        }
+        self.sweep_backward(0..self.panels.count(), one_lane(x));
     }
 
     /// x <- A^-1 x.
@@ -226,60 +191,179 @@ impl Factor {
         self.forward(x);
         self.backward(x);
     }
+
+    /// Eliminates the unknowns before the border i: x_i <- L_ii^-1 x_i, x_c <- x_c - A_ci A_ii^-1 x_i. What is left for
+    /// the others is S x_c, S the Schur complement.
+    pub fn condense(&self, x: &mut [f64]) {
+        self.condense_lanes(one_lane(x));
+    }
+
+    /// Back from the solution x_c of the unknowns behind the border to that of all: x_i <- L_ii^-T (x_i - L_ci^T x_c).
+    pub fn expand(&self, x: &mut [f64]) {
+        self.expand_lanes(one_lane(x));
+    }
+
+    /// [`Factor::condense`] for several vectors, reading L once.
+    pub fn condense_lanes<const K: usize>(&self, x: &mut Lanes<K>) {
+        self.sweep_forward(0..self.panels.border, x);
+    }
+
+    /// [`Factor::expand`] for several vectors, reading L once.
+    pub fn expand_lanes<const K: usize>(&self, x: &mut Lanes<K>) {
+        self.sweep_backward(0..self.panels.border, x);
+    }
+
+    fn sweep_forward<const K: usize>(&self, supernodes: Range<usize>, x: &mut Lanes<K>) {
+        assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
+        with_widest_vectors(Sweep::Forward, &self.panels, &self.forward, supernodes, x);
+    }
+
+    fn sweep_backward<const K: usize>(&self, supernodes: Range<usize>, x: &mut Lanes<K>) {
+        assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
+        let behind = self.panels.entries(supernodes.end..self.panels.count());
+        with_widest_vectors(Sweep::Backward, &self.panels, &self.backward[behind..], supernodes, x);
+    }
+}
+
+fn one_lane(x: &mut [f64]) -> &mut Lanes<1> {
+    x.as_chunks_mut().0
+}
+
+#[derive(Clone, Copy)]
+enum Sweep {
+    Forward,
+    Backward,
+}
+
+/// Over some first supernodes, with the widest vector registers that this processor has. Additions and products are
+/// those of the plain loop in the same order, so the digits are the same on all.
+fn with_widest_vectors<const K: usize>(
+    sweep: Sweep,
+    panels: &Panels,
+    l: &[f64],
+    supernodes: Range<usize>,
+    x: &mut Lanes<K>,
+) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx512f")]
+        fn avx512<const K: usize>(s: Sweep, panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
+            plain(s, panels, l, supernodes, x);
+        }
+        #[target_feature(enable = "avx2")]
+        fn avx2<const K: usize>(s: Sweep, panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
+            plain(s, panels, l, supernodes, x);
+        }
+        if is_x86_feature_detected!("avx512f") {
+            // SAFETY: the processor has just said that it can.
+            return unsafe { avx512(sweep, panels, l, supernodes, x) };
+        }
+        if is_x86_feature_detected!("avx2") {
+            // SAFETY: likewise.
+            return unsafe { avx2(sweep, panels, l, supernodes, x) };
+        }
+    }
+    plain(sweep, panels, l, supernodes, x);
+}
+
+#[inline(always)]
+fn plain<const K: usize>(sweep: Sweep, panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
+    match sweep {
+        Sweep::Forward => forward(panels, l, supernodes, x),
+        Sweep::Backward => backward(panels, l, supernodes, x),
+    }
+}
+
+#[inline(always)]
+fn forward<const K: usize>(panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
+    let mut l = l;
+    for s in supernodes {
+        let (width, rows) = (panels.width(s), panels.rows(s));
+        for (first, size) in blocks(0, width) {
+            of_size!(size, solve_rows(&mut l, &mut x[rows[0]..], first));
+        }
+        for (first, size) in blocks(width, rows.len()) {
+            of_size!(size, subtract_rows(&mut l, x, &rows[..width], &rows[first..]));
+        }
+    }
+}
+
+#[inline(always)]
+fn backward<const K: usize>(panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
+    let mut l = l;
+    for s in supernodes.rev() {
+        let (width, rows) = (panels.width(s), panels.rows(s));
+        for (first, size) in blocks(0, width).rev() {
+            of_size!(size, solve_columns(&mut l, x, &rows[first..]));
+        }
+    }
 }
 
 /// x_i <- (x_i - sum_j l_ij x_j) / l_ii for the rows i = first..first + W of a triangle, all j < i.
-fn solve_rows<const W: usize>(l: &mut &[f64], x: &mut [f64], first: usize) {
+#[inline(always)]
+fn solve_rows<const W: usize, const K: usize>(l: &mut &[f64], x: &mut Lanes<K>, first: usize) {
     let (known, x) = x.split_at_mut(first);
-    let sums = interleaved_sums::<W>(take(l, W * first), known.iter().copied());
-    let mut block: [f64; W] = std::array::from_fn(|k| x[k] - sums[k]);
+    let sums = interleaved_sums::<W, K>(take(l, W * first), known.iter().copied());
+    let mut block: [[f64; K]; W] = std::array::from_fn(|i| minus(x[i], 1., sums[i]));
     for j in 0..W {
         let column = take(l, W - j);
-        block[j] *= column[0];
+        block[j] = block[j].map(|x| x * column[0]);
         for i in j + 1..W {
-            block[i] -= column[i - j] * block[j];
+            block[i] = minus(block[i], column[i - j], block[j]);
         }
     }
     x[..W].copy_from_slice(&block);
 }
 
 /// x_i <- x_i - sum_j l_ij x_j for the first W of the rows i, all columns j.
-fn subtract_rows<const W: usize>(l: &mut &[f64], x: &mut [f64], columns: &[usize], rows: &[usize]) {
+#[inline(always)]
+fn subtract_rows<const W: usize, const K: usize>(l: &mut &[f64], x: &mut Lanes<K>, columns: &[usize], rows: &[usize]) {
     let known = &x[columns[0]..][..columns.len()];
-    let sums = interleaved_sums::<W>(take(l, W * known.len()), known.iter().copied());
+    let sums = interleaved_sums::<W, K>(take(l, W * known.len()), known.iter().copied());
     for (&i, sum) in rows.iter().zip(sums) {
-        x[i] -= sum;
+        x[i] = minus(x[i], 1., sum);
     }
 }
 
 /// x_j <- (x_j - sum_i l_ij x_i) / l_jj for the columns j that are the first W of the rows i, all i > j.
-fn solve_columns<const W: usize>(l: &mut &[f64], x: &mut [f64], rows: &[usize]) {
+#[inline(always)]
+fn solve_columns<const W: usize, const K: usize>(l: &mut &[f64], x: &mut Lanes<K>, rows: &[usize]) {
     let (columns, below) = rows.split_at(W);
-    let sums = interleaved_sums::<W>(take(l, W * below.len()), below.iter().map(|&i| x[i]));
+    let sums = interleaved_sums::<W, K>(take(l, W * below.len()), below.iter().map(|&i| x[i]));
     let x = &mut x[columns[0]..][..W];
-    let mut block: [f64; W] = std::array::from_fn(|k| x[k] - sums[k]);
+    let mut block: [[f64; K]; W] = std::array::from_fn(|j| minus(x[j], 1., sums[j]));
     for j in (0..W).rev() {
         let column = take(l, W - j);
         for i in j + 1..W {
-            block[j] -= column[i - j] * block[i];
+            block[j] = minus(block[j], column[i - j], block[i]);
         }
-        block[j] *= column[0];
+        block[j] = block[j].map(|x| x * column[0]);
     }
     x.copy_from_slice(&block);
 }
 
 /// sum_k l[W k + i] x_k for i = 0..W.
-fn interleaved_sums<const W: usize>(l: &[f64], x: impl Iterator<Item = f64>) -> [f64; W] {
-    let mut sums = [0.0; W];
+#[inline(always)]
+fn interleaved_sums<const W: usize, const K: usize>(l: &[f64], x: impl Iterator<Item = [f64; K]>) -> [[f64; K]; W] {
+    let mut sums = [[0.0; K]; W];
     for (l, x) in l.chunks_exact(W).zip(x) {
         for i in 0..W {
-            sums[i] += l[i] * x;
+            for k in 0..K {
+                sums[i][k] += l[i] * x[k];
+            }
         }
     }
     sums
 }
 
+/// x - factor y.
+#[inline(always)]
+fn minus<const K: usize>(x: [f64; K], factor: f64, y: [f64; K]) -> [f64; K] {
+    std::array::from_fn(|k| x[k] - factor * y[k])
+}
+
 /// Cuts the first `n` values off.
+#[inline(always)]
 fn take<'a>(l: &mut &'a [f64], n: usize) -> &'a [f64] {
     let (taken, rest) = l.split_at(n);
     *l = rest;
@@ -317,5 +401,22 @@ mod tests {
         factor.backward(&mut backward);
         assert!(distance(&forward, &x) < 1e-13);
         assert!(distance(&backward, &x) < 1e-13);
+    }
+
+    /// To the last digit: a run among others gives what it gives alone.
+    #[test]
+    fn lanes_do_not_change_each_others_digits() {
+        let a = grid_matrix(40, 33, &[]);
+        let border = a.rows() - 5;
+        let factor = Symbolic::bordered(&a, border).factor(&a).expect("positive definite");
+        let vectors = [1, 2, 3, 4].map(|seed| random(a.rows(), seed));
+        let mut lanes: Vec<[f64; 4]> = (0..a.rows()).map(|i| std::array::from_fn(|k| vectors[k][i])).collect();
+        factor.condense_lanes(&mut lanes);
+        factor.expand_lanes(&mut lanes);
+        for (k, mut alone) in vectors.into_iter().enumerate() {
+            factor.condense(&mut alone);
+            factor.expand(&mut alone);
+            assert!(lanes.iter().zip(&alone).all(|(lane, alone)| lane[k] == *alone), "lane {k}");
+        }
     }
 }
