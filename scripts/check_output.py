@@ -19,7 +19,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-POINT_ARRAYS = {"displacement": 3, "velocity": 3, "acceleration": 3}
+MOTION_ARRAYS = {"displacement": 3, "velocity": 3, "acceleration": 3}
+POINT_ARRAYS = MOTION_ARRAYS | {"nodal_stress": 6, "nodal_von_mises": 1}
 FACE_ARRAYS = {"stress": 6, "strain": 6, "von_mises": 1, "material": 1}
 JOINT_ARRAYS = {"gap": 1, "slip": 1, "normal_traction": 1, "shear_traction": 1, "status": 1}
 LINES = {"line", "line3"}
@@ -159,7 +160,7 @@ def check_frame(time, path, probes, histories):
             np.allclose(place, [probe["x"], probe["y"]], rtol=0, atol=1e-9),
             f'probe {probe["name"]} is at ({probe["x"]}, {probe["y"]}) m, but its node in {path} at {place} m',
         )
-        for name in POINT_ARRAYS:
+        for name in MOTION_ARRAYS:
             vector = point_data[name][probe["node"], :2]
             histories.check(probe["name"], time, vector, {"displacement": "u"}.get(name, name[0]))
     return int(line.sum())

@@ -5,6 +5,7 @@ mod support;
 use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::resolve::Model;
 use coralpipe::physics::joint::Status;
+use coralpipe::results::sites::Sites;
 use coralpipe::results::stress::Recovery;
 use coralpipe::solve::assembly;
 use coralpipe::solve::contact::{Contact, Problem};
@@ -83,9 +84,52 @@ fn a_uniform_strain_on_the_edge_is_uniform_inside() {
         let error = error.fold(0., f64::max) / 3e-4;
         println!("{shape:?}: displacement {error:.1e}");
         assert!(error < 1e-9, "{shape:?}: displacement {error:.1e}");
-        for cell in Recovery::new(&model).stresses(&displacements) {
-            for (s, exact) in cell.stress.into_iter().zip([1600., 1600., 800., 400.]) {
+        let recovery = Recovery::new(&model, &Sites::new(&model));
+        let at_centres = recovery.stresses(&displacements);
+        let at_nodes = recovery.nodal_stresses(&displacements, &at_centres);
+        for stress in at_centres.into_iter().map(|cell| cell.stress).chain(at_nodes) {
+            for (s, exact) in stress.into_iter().zip([1600., 1600., 800., 400.]) {
                 assert!((s / exact - 1.).abs() < 1e-9, "{shape:?}: {s} for {exact}");
+            }
+        }
+    }
+}
+
+/// Two layers pressed from above without lateral strain: eps_yy = s / M in each, s_xx = nu / (1 - nu) s jumps between
+/// them. Where they share a node, each keeps its own.
+#[test]
+fn nodal_stress_jumps_where_two_materials_share_a_node() {
+    for shape in SHAPES {
+        let mut drawing = Drawing::default();
+        let node = |drawing: &mut Drawing, i: usize, j: usize| {
+            let at = [i as f64 / 3., j as f64 / 2.];
+            (0..drawing.len()).find(|&n| drawing.at(n) == at).unwrap_or_else(|| drawing.node(at))
+        };
+        for (i, j) in (0..12).map(|k| (k % 3, k / 3)) {
+            let group = if j < 2 { "lower" } else { "upper" };
+            let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(|[i, j]| node(&mut drawing, i, j));
+            match shape.corner_count() {
+                3 => [[a, b, c], [a, c, d]].iter().for_each(|corners| add_face(&mut drawing, group, shape, corners)),
+                _ => add_face(&mut drawing, group, shape, &[a, b, c, d]),
+            }
+        }
+        let material = |poisson: f64| json!({ "young": 1e6, "poisson": poisson, "density": 1 });
+        let json = json!({ "materials": { "lower": material(0.2), "upper": material(0.4) },
+                           "time": { "step": 1, "end": 1 } });
+        let model = support::model(&json, &drawing.mesh());
+        // M = E (1 - nu) / (1 + nu)(1 - 2 nu)
+        let strain = |nu: f64| -1e3 / (1e6 * (1. - nu) / (1. + nu) / (1. - 2. * nu));
+        let u = |&[_, y]: &[f64; 2]| [0., strain(0.2) * y.min(1.) + strain(0.4) * (y - 1.).max(0.)];
+        let sites = Sites::new(&model);
+        let u: Vec<[f64; 2]> = model.mesh.points.iter().map(u).collect();
+        let recovery = Recovery::new(&model, &sites);
+        let stress = recovery.nodal_stresses(&u, &recovery.stresses(&u));
+        let shared = model.mesh.points.iter().filter(|p| p[1] == 1.).count();
+        assert_eq!(sites.nodes.len(), model.mesh.points.len() + shared);
+        for (face, (_, material)) in sites.faces.iter().zip(model.faces()) {
+            let across = -1e3 * material.poisson / (1. - material.poisson);
+            for (s, exact) in face.iter().flat_map(|&site| stress[site].into_iter().zip([across, -1e3, across, 0.])) {
+                assert!((s - exact).abs() < 1e-8, "{shape:?}: {s} for {exact}");
             }
         }
     }

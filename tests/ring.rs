@@ -6,11 +6,14 @@ use coralpipe::model::resolve::Model;
 use coralpipe::model::ring::RingShape;
 use coralpipe::physics::element::{self, Integral};
 use coralpipe::results::ring::{Section, rings};
+use coralpipe::results::sites::Sites;
+use coralpipe::results::stress::Recovery;
 use coralpipe::solve::march::March;
 use coralpipe::solve::start;
 use coralpipe::solve::step::Scheme;
 use coralpipe::solve::system::State;
 use coralpipe::study::prepare::Prepared;
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -128,7 +131,7 @@ fn worst(sections: &[Section], of: impl Fn(&Section) -> f64, exact: f64, scale: 
 }
 
 /// The paper's pipe alone under 1 MPa from outside or inside.
-fn lame(shape: Shape, rays: usize, layers: usize, loaded: &str) -> Vec<Section> {
+fn lame(shape: Shape, rays: usize, layers: usize, loaded: &str) -> (Prepared, State) {
     let mesh = Polar { shape, rays, radii: [0.4, 0.6], layers, ground_layers: 0, width: 0.6 }.mesh();
     let json = format!(
         r#"{{ "analysis": "static", "materials": {{ "pipe": {{ "young": 2.1e11, "poisson": 0.3, "density": 7800 }} }},
@@ -136,7 +139,8 @@ fn lame(shape: Shape, rays: usize, layers: usize, loaded: &str) -> Vec<Section> 
         "loads": {{ "{loaded}": {{ "pressure": {{ "law": "step", "peak": "1 MPa" }} }} }} }}"#
     );
     let prepared = prepared(&format!("lame_{shape:?}_{rays}_{loaded}"), &json, &mesh, true);
-    sections(&prepared, &statics(&prepared))
+    let state = statics(&prepared);
+    (prepared, state)
 }
 
 /// sigma_theta = A + B / r^2: N = -p_o b or p_i a, M = B (ln(b/a) - r_m (1/a - 1/b)).
@@ -152,7 +156,8 @@ fn a_free_ring_under_pressure_has_lames_forces_and_hoop_stress() {
         let m = capital_b * ((b / a).ln() - 0.5 * (1. / a - 1. / b));
         for shape in SHAPES {
             let errors = [(32, 2), (64, 4), (128, 8)].map(|(rays, layers)| {
-                let s = lame(shape, rays, layers, loaded);
+                let (prepared, state) = lame(shape, rays, layers, loaded);
+                let s = sections(&prepared, &state);
                 [
                     worst(&s, |s| s.normal_force, n, n),
                     worst(&s, |s| s.shear_force, 0., n),
@@ -172,6 +177,43 @@ fn a_free_ring_under_pressure_has_lames_forces_and_hoop_stress() {
             let order = (errors[1][2] / errors[2][2]).log2();
             assert!(order > if shape.node_count() > 4 { 3.8 } else { 1.9 }, "{shape:?}: order {order}");
         }
+    }
+}
+
+/// Root mean square over the nodes, and largest, error of nodal sigma_theta and sigma_r under 1 MPa from outside, over 3.6 MPa.
+fn nodal_error(shape: Shape, rays: usize, layers: usize) -> [f64; 2] {
+    let (prepared, state) = lame(shape, rays, layers, "interface");
+    let sites = Sites::new(&prepared.model);
+    let u = prepared.system.unknowns.at_nodes(&state.q);
+    let recovery = Recovery::new(&prepared.model, &sites);
+    let stress = recovery.nodal_stresses(&u, &recovery.stresses(&u));
+    let used: BTreeSet<usize> = sites.faces.iter().flatten().copied().collect();
+    let error = |&site: &usize| {
+        let ([x, y], [xx, yy, zz, xy]) = (prepared.model.mesh.points[sites.nodes[site]], stress[site]);
+        let r2 = x * x + y * y;
+        let radial = (xx * x * x + yy * y * y + 2. * xy * x * y) / r2;
+        // Lame: -A -+ B / r^2, A = p b^2 / (b^2 - a^2), B = p a^2 b^2 / (b^2 - a^2); sigma_zz = nu (sigma_r + sigma_theta)
+        let (a, b) = (0.36e6 / 0.2, 0.0576e6 / 0.2);
+        assert!((zz - 0.3 * (xx + yy)).abs() < 1e-3);
+        ((xx + yy - radial + a + b / r2) / 3.6e6).hypot((radial + a - b / r2) / 3.6e6)
+    };
+    let errors: Vec<f64> = used.iter().map(error).collect();
+    let mean_square = errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64;
+    [mean_square.sqrt(), errors.iter().copied().fold(0., f64::max)]
+}
+
+/// Element stress is of order p; the mean of what elements extrapolate to a node was measured at 1.4, 1.4, 2, 2 in the mean
+/// square, on a quarter. Recovered: p + 1 on this mesh; observed 2.25, 2.36, 2.96, 3.33, asked a quarter less.
+#[test]
+fn nodal_stress_converges_faster_than_the_elements_to_lames() {
+    for (shape, order, finest) in
+        [(Shape::Tri3, 2., 5e-3), (Shape::Quad4, 2.1, 3e-3), (Shape::Tri6, 2.7, 1e-4), (Shape::Quad8, 3.1, 1e-4)]
+    {
+        let errors = [(64, 4), (128, 8)].map(|(rays, layers)| nodal_error(shape, rays, layers));
+        let observed = [0, 1].map(|k| (errors[0][k] / errors[1][k]).log2());
+        println!("{shape:?} [rms, largest]: {errors:.6?}, orders {observed:.2?}");
+        assert!(observed[0] > order, "{shape:?}");
+        assert!(errors[1][0] < finest, "{shape:?}");
     }
 }
 
@@ -348,8 +390,13 @@ fn a_buried_ring_has_the_exact_forces_bonded_stuck_and_frictionless() {
             let name = format!("{name}_{shape:?}_{rays}");
             let sections = in_plane(&name, polar, RING, [1e8, 0.25], interface, bonded);
             all_within(&name, &sections, exact, tolerance);
+            sections
         };
-        run("bonded", "", true, BONDED);
+        let bonded = run("bonded", "", true, BONDED);
+        // tau(45 degrees) = -76.229 kPa; its mean over the hat of length h is 1 - 4 h^2 / 12 of it, 0.3 % less on 64 rays
+        let tau = bonded[bonded.len() / 8].traction[1].abs();
+        // (Q4 are as far off as their bending is)
+        assert!((tau / 76.229e3 - 1.).abs() < if shape == Shape::Quad4 { 0.08 } else { 0.006 }, "{shape:?}: tau {tau}");
         let stiff = r#", "normal_stiffness": 1e13, "tangential_stiffness": 1e13"#;
         run("stuck", &format!(r#"{stiff}, "friction": 1e3"#), false, BONDED);
         run("smooth", &format!(r#"{stiff}, "friction": 0"#), false, SMOOTH);

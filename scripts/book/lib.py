@@ -197,14 +197,16 @@ FACES = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4}
 def read_frame(path: Path) -> SimpleNamespace:
     """A frame as arrays.
 
-    points (n, 2) [m]; displacement, velocity, acceleration (n, 2); faces: list of node lists, all elements in the
-    file's order; kinds: their types; centres (m, 2): where stress holds; stress, strain (m, 4): xx, yy, zz, xy;
+    points (n, 2) [m], one for each material at a node; displacement, velocity, acceleration (n, 2); nodal_stress (n, 4):
+    xx, yy, zz, xy recovered at the points; faces: list of node lists, all elements in the file's order; kinds: their
+    types; centres (m, 2): where stress holds; stress, strain (m, 4): xx, yy, zz, xy;
     material (m,): place of the group among the case's materials by name, from 1; joints: node lists of the ground's
     side, with gap, slip, normal_traction, shear_traction, status (k,) each.
     """
     mesh = meshio.read(path)
     points = mesh.points[:, :2]
-    frame = SimpleNamespace(points=points, **{name: data[:, :2] for name, data in mesh.point_data.items()})
+    motion = {name: mesh.point_data[name][:, :2] for name in ["displacement", "velocity", "acceleration"]}
+    frame = SimpleNamespace(points=points, nodal_stress=mesh.point_data["nodal_stress"][:, :4], **motion)
     face_blocks = [i for i, block in enumerate(mesh.cells) if block.type in FACES]
     line_blocks = [i for i, block in enumerate(mesh.cells) if block.type not in FACES]
     joined = lambda name, blocks: np.concatenate([np.asarray(mesh.cell_data[name][i]) for i in blocks] or [np.zeros(0)])

@@ -1,6 +1,7 @@
 //! One moment as a VTK unstructured grid: faces with stresses, interfaces as line cells with gap, slip and tractions.
 
-use super::stress::{CellStress, Recovery};
+use super::sites::Sites;
+use super::stress::{CellStress, Recovery, von_mises};
 use crate::model::resolve::Model;
 use crate::physics::joint::Status;
 use crate::physics::shape::Shape;
@@ -92,11 +93,14 @@ pub struct Grid {
     types: Vec<CellType>,
     /// number of the material, from 1 in the order of [`Model::materials`]; 0 on interfaces
     material: Vec<i32>,
+    /// the points, one for each material that meets at a node
+    sites: Sites,
     recovery: Recovery,
 }
 
 impl Grid {
     pub fn new(model: &Model) -> Grid {
+        let sites = Sites::new(model);
         let (mut connectivity, mut offsets, mut types, mut material) = (vec![], vec![], vec![], vec![]);
         let mut push = |nodes: &mut dyn Iterator<Item = usize>, shape: Shape, number: i32| {
             connectivity.extend(nodes.map(|n| n as u64));
@@ -104,19 +108,21 @@ impl Grid {
             types.push(cell_type(shape));
             material.push(number);
         };
-        for (cell, _) in model.faces() {
+        for ((cell, _), of_face) in model.faces().zip(&sites.faces) {
             let number = model.material_of[cell].map_or(0, |m| m as i32 + 1);
-            push(&mut model.mesh.cells[cell].nodes.iter().copied(), model.mesh.cells[cell].shape, number);
+            push(&mut of_face.iter().copied(), model.mesh.cells[cell].shape, number);
         }
         for joint in &model.joints {
             push(&mut joint.pairs.iter().map(|&p| model.pairs[p].ground), joint.shape, 0);
         }
-        let points = model.mesh.points.iter().flat_map(|[x, y]| [*x, *y, 0.]).collect();
-        Grid { points, connectivity, offsets, types, material, recovery: Recovery::new(model) }
+        let points = sites.spread(&model.mesh.points).into_iter().flat_map(|[x, y]| [x, y, 0.]).collect();
+        let recovery = Recovery::new(model, &sites);
+        Grid { points, connectivity, offsets, types, material, sites, recovery }
     }
 
     /// The .vtu file of a frame: inline base64, zlib at its quickest.
     pub fn vtu(&self, frame: &Frame) -> Result<Vec<u8>> {
+        let centres = self.recovery.stresses(&frame.total_displacement);
         let piece = UnstructuredGridPiece {
             points: IOBuffer::F64(self.points.clone()),
             cells: Cells {
@@ -126,7 +132,7 @@ impl Grid {
                 },
                 types: self.types.clone(),
             },
-            data: Attributes { point: self.point_data(frame), cell: self.cell_data(frame) },
+            data: Attributes { point: self.point_data(frame, &centres), cell: self.cell_data(frame, &centres) },
         };
         let vtk = Vtk {
             version: Version::new_xml(1, 0),
@@ -143,21 +149,26 @@ impl Grid {
         Ok(bytes)
     }
 
-    fn point_data(&self, frame: &Frame) -> Vec<Attribute> {
+    /// Recovered stress in single precision, far below its error: seven more numbers a point.
+    fn point_data(&self, frame: &Frame, centres: &[CellStress]) -> Vec<Attribute> {
         let vector = |name: &str, values: &[[f64; 2]]| {
-            let in_space: Vec<f64> = values.iter().flat_map(|[x, y]| [*x, *y, 0.]).collect();
+            let in_space: Vec<f64> = self.sites.spread(values).into_iter().flat_map(|[x, y]| [x, y, 0.]).collect();
             Attribute::vectors(name).with_data(in_space)
         };
+        let recovered = self.recovery.nodal_stresses(&frame.total_displacement, centres);
+        let stress: Vec<f32> = recovered.iter().flat_map(|s| six(*s).map(|x| x as f32)).collect();
+        let von_mises: Vec<f32> = recovered.iter().map(|s| von_mises(*s) as f32).collect();
         vec![
             vector("displacement", &frame.displacement),
             vector("velocity", &frame.velocity),
             vector("acceleration", &frame.acceleration),
+            Attribute::generic("nodal_stress", 6).with_data(stress),
+            Attribute::scalars("nodal_von_mises", 1).with_data(von_mises),
         ]
     }
 
     /// Faces first, then interfaces; what only the other kind has is zero.
-    fn cell_data(&self, frame: &Frame) -> Vec<Attribute> {
-        let faces = self.recovery.stresses(&frame.total_displacement);
+    fn cell_data(&self, frame: &Frame, faces: &[CellStress]) -> Vec<Attribute> {
         let tensor = |name: &str, of: fn(&CellStress) -> [f64; 4]| {
             let on_lines = std::iter::repeat_n(0., 6 * frame.joints.len());
             let values: Vec<f64> = faces.iter().flat_map(|f| six(of(f))).chain(on_lines).collect();
@@ -178,7 +189,7 @@ impl Grid {
         vec![
             tensor("stress", |f| f.stress),
             tensor("strain", |f| f.strain),
-            on_faces("von_mises", CellStress::von_mises),
+            on_faces("von_mises", |f| von_mises(f.stress)),
             Attribute::scalars("material", 1).with_data(self.material.clone()),
             on_lines("gap", |j| j.gap),
             on_lines("slip", |j| j.slip),

@@ -3,6 +3,7 @@
 //! Linear in the displacements: sigma_theta = sum of weight . u, the weights found once.
 
 use super::ring::material_of;
+use super::stress::best_points;
 use crate::model::case::Quad4;
 use crate::model::resolve::Model;
 use crate::model::ring::RingShape;
@@ -48,15 +49,6 @@ pub fn samples(shape: &RingShape, model: &Model) -> Vec<Sample> {
         points.map(sample).collect::<Vec<_>>()
     };
     shape.sectors.iter().flat_map(in_face).collect()
-}
-
-fn best_points(shape: Shape) -> Vec<[f64; 2]> {
-    match shape {
-        Shape::Tri3 => vec![[1. / 3., 1. / 3.]],
-        Shape::Tri6 => vec![[1. / 6., 1. / 6.], [2. / 3., 1. / 6.], [1. / 6., 2. / 3.]],
-        Shape::Quad8 => element::gauss_2().iter().flat_map(|(r, _)| element::gauss_2().map(|(s, _)| [*r, s])).collect(),
-        _ => vec![[0., 0.]],
-    }
 }
 
 /// Least squares over the two sectors on either side of a ray, then the value at the ray and `radius`.
