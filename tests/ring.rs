@@ -180,7 +180,7 @@ fn a_free_ring_under_pressure_has_lames_forces_and_hoop_stress() {
     }
 }
 
-/// Root mean square over the nodes, and largest, error of nodal sigma_theta and sigma_r under 1 MPa from outside, over 3.6 MPa.
+/// Error of nodal sigma_theta and sigma_r under 1 MPa from outside, over 3.6 MPa: root mean square, and the largest.
 fn nodal_error(shape: Shape, rays: usize, layers: usize) -> [f64; 2] {
     let (prepared, state) = lame(shape, rays, layers, "interface");
     let sites = Sites::new(&prepared.model);

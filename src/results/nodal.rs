@@ -3,8 +3,8 @@
 //! Round an inner corner node a polynomial P(x) a = sigma is fitted by least squares to the best points of the elements
 //! that meet there, with all terms of the degree of the shape functions: 1, x, y for T3 and Q4, and x^2, xy, y^2 for T6
 //! and Q8. The node takes its value from it; a mid-side node from the fits of its two ends; a node on a border from all
-//! fits round the corners of its elements. Where a body has no inner node, an element's own best points are fitted with a
-//! degree less. Several fits give their mean. All of it is linear: sigma(node) = sum of weight times sigma(best point).
+//! fits round the corners of its elements. Where a body has no inner node, an element's own best points are fitted with
+//! a degree less. Several fits give their mean. All of it is linear: sigma(node) = sum of weight times sigma(best point).
 
 use crate::physics::shape::Shape;
 use nalgebra::{DMatrix, DVector};
@@ -146,7 +146,7 @@ impl Fit {
     /// None where the samples do not tell the terms apart.
     fn new(centre: [f64; 2], samples: Vec<usize>, best: &[[f64; 2]], degree: usize) -> Option<Fit> {
         let from_centre = |&i: &usize| [best[i][0] - centre[0], best[i][1] - centre[1]];
-        let scale = samples.iter().map(from_centre).flatten().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
+        let scale = samples.iter().flat_map(from_centre).fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
         let rows: Vec<Vec<f64>> = samples.iter().map(|i| terms(from_centre(i).map(|x| x / scale), degree)).collect();
         let count = rows.first()?.len();
         if rows.len() < count {
@@ -176,7 +176,7 @@ mod tests {
     use crate::physics::element;
     use crate::results::stress::best_points;
 
-    /// Three by three squares or pairs of triangles, every node moved, mid-sides off the straight line; one square alone.
+    /// n by n squares or pairs of triangles, every node moved, mid-sides off the straight line.
     fn distorted(shape: Shape, n: usize) -> (Vec<Patchwork>, Vec<[f64; 2]>, Vec<[f64; 2]>) {
         let (mut points, mut best, mut faces) = (vec![], vec![], vec![]);
         let across = 2 * n + 1;
