@@ -2,6 +2,9 @@
 # make test     every test
 # make batch    all variants of geo/batch.txt, with -j2 two at a time; the peaks are in output/batch.csv
 # make book     the verification book: every case with an exact answer, written to docs/verification/
+# make bench    what a step costs, against what memory allows and against a linear step; BENCH=full adds 1,000,000 unknowns
+# make bench-peers  the same case by OpenSees, SciPy and Kratos, which it installs into .venv-bench
+#                   with either, RECORD=1 writes its section of docs/performance.md
 # make picture  the README's picture, by ParaView
 # make clean    removes what was built and computed; the default mesh, and meshes of your own, stay
 
@@ -9,7 +12,7 @@ program := target/release/coralpipe
 python := .venv/bin/python
 sources := $(shell find src -name '*.rs') Cargo.toml Cargo.lock
 
-.PHONY: all setup test batch book picture clean
+.PHONY: all setup test batch book bench bench-peers picture clean
 all: setup $(program)
 	$(program) run
 
@@ -34,6 +37,17 @@ test: setup $(program)
 
 book: setup $(program)
 	PYTHONPATH=scripts $(python) -m book
+
+bench: setup
+	@mkdir -p target
+	cargo bench --locked --bench table > target/bench.md
+	@cat target/bench.md
+	$(if $(RECORD),$(python) scripts/bench/record.py bench < target/bench.md)
+
+bench-peers: setup $(program)
+	scripts/bench/setup.sh
+	$(program) mesh
+	PYTHONPATH=scripts .venv-bench/bin/python -m bench $(if $(RECORD),--record)
 
 # Goes on where one variant fails, so that the table holds the others; the failure is told at the end.
 batch: setup $(program)

@@ -1,0 +1,62 @@
+//! A contact step beside a linear one: the equations alone, over the whole run of the default case.
+
+use super::case::{Size, ready_to_march};
+use super::clock::{Samples, seconds as time};
+use super::table::{Row, seconds};
+use coralpipe::solve::march::March;
+use coralpipe::solve::system::State;
+
+const ROUNDS: usize = 3;
+/// Steps of one before the other has its turn: enough to have its own factor in the cache, if that fits.
+const TURN: usize = 50;
+
+struct Runner<'a> {
+    state: State,
+    march: March<'a>,
+    seconds: f64,
+    /// steps that left some joint open, and slipping
+    open: usize,
+    slipping: usize,
+}
+
+impl Runner<'_> {
+    fn take_turn(&mut self, steps: usize) {
+        for _ in 0..steps {
+            self.seconds += time(|| {
+                let mut steps = self.march.advance(&self.state).expect("the default case converges");
+                self.state = steps.pop().expect("an advance has at least one step").state;
+            });
+            self.open += usize::from(self.state.joints.iter().any(|j| j.status.is_open()));
+            self.slipping += usize::from(self.state.joints.iter().any(|j| j.status.is_slipping()));
+        }
+    }
+}
+
+pub fn rows(size: &Size) -> Vec<Row> {
+    let [contact, bonded] = [false, true].map(|bonded| size.prepare(bonded));
+    let steps = contact.model.time.steps;
+    let (mut of_contact, mut of_bonded) = (Samples(vec![]), Samples(vec![]));
+    for _ in 0..ROUNDS {
+        let [mut a, mut b] = [&contact, &bonded].map(|prepared| {
+            let (state, march) = ready_to_march(prepared);
+            Runner { state, march, seconds: 0., open: 0, slipping: 0 }
+        });
+        for _ in 0..steps / TURN {
+            a.take_turn(TURN);
+            b.take_turn(TURN);
+        }
+        assert!(a.open > steps / 10 && a.slipping > steps / 10, "a run without opening and slip shows nothing");
+        of_contact.0.push(a.seconds / steps as f64);
+        of_bonded.0.push(b.seconds / steps as f64);
+    }
+    vec![Row {
+        what: "contact step, equations",
+        unknowns: contact.system.unknowns.count,
+        joint_points: contact.system.interface.points.len(),
+        value: seconds(of_contact.median()),
+        beside: "bonded step".into(),
+        reference: seconds(of_bonded.median()),
+        ratio: of_contact.over(&of_bonded),
+        goal: Some(1.15),
+    }]
+}
