@@ -33,11 +33,10 @@ impl Row {
     }
 }
 
+/// Three digits at least.
 pub fn seconds(s: f64) -> String {
-    match s {
-        s if s < 0.1 => format!("{:.3} ms", 1e3 * s),
-        s => format!("{s:.2} s"),
-    }
+    let digits = |x: f64| if x < 10. { 2 } else { 1 };
+    if s < 1. { format!("{:.*} ms", digits(1e3 * s), 1e3 * s) } else { format!("{s:.*} s", digits(s)) }
 }
 
 /// Machine and table, in Markdown with straight columns.

@@ -124,12 +124,16 @@ def ratios(rounds, bonded):
         wall = median(run.wall_s for run in runs)
         how = PEERS.get((bonded, name), name)
         yield ["bonded" if bonded else "contact", how, str(runs[0].unknowns), str(runs[0].steps),
-               f"{1e3 * step:.3g} ms", f"{wall:.3g} s", f"{ratio:.3g}"]
+               seconds(step), seconds(wall), f"{ratio:.3g}"]
 
 
 def machine(runs):
     versions = sorted({run.version for run in runs.values()})
     return f"{processor()}; {'; '.join(versions)}; Python {sys.version.split()[0]}"
+
+
+def seconds(s):
+    return f"{1e3 * s:.3g} ms" if s < 1 else f"{s:.4g} s"
 
 
 def table(head, rows):

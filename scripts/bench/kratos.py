@@ -1,7 +1,5 @@
 """Peer: Kratos Multiphysics. Elements SmallDisplacementElement2D4N and 2D3N, consistent mass, Newmark's method, joints
 Geo_ULineInterfacePlaneStrainElement2Plus2N with Coulomb's law and tension cut-off.
-
-Its law takes an opening for plastic strain: a joint that has opened closes again wherever it stands.
 """
 
 import math
@@ -75,8 +73,9 @@ def interface(model, part):
     properties = part.GetProperties()[1000]
     if not properties.Has(kratos.CONSTITUTIVE_LAW):
         kn, ks, friction = model.joint_law(model.pairs[0])
+        # With atan its results are nearest to those of a friction sin(atan f): its sin(phi) acts as f.
         values = {"INTERFACE_NORMAL_STIFFNESS": kn, "INTERFACE_SHEAR_STIFFNESS": ks, "GEO_COHESION": 0.0,
-                  "GEO_FRICTION_ANGLE": math.degrees(math.atan(friction)), "GEO_DILATANCY_ANGLE": 0.0,
+                  "GEO_FRICTION_ANGLE": math.degrees(math.asin(friction)), "GEO_DILATANCY_ANGLE": 0.0,
                   "GEO_TENSILE_STRENGTH": 0.0}
         for name, value in values.items():
             properties.SetValue(kratos.KratosGlobals.GetVariable(name), value)

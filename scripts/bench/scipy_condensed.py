@@ -18,14 +18,18 @@ OPEN, STICK, FORWARD, BACKWARD = range(4)
 
 
 class Joints:
-    """Forces of all pairs from their jumps; `law`: coralpipe's, or that of OpenSees' zeroLengthContact2D."""
+    """Forces of all pairs from their jumps, and the plastic slip that they remember.
+
+    `law`: coralpipe's, or that of OpenSees' zeroLengthContact2D, which takes the whole jump for slip where it slips and keeps
+    its slip where it is open.
+    """
 
     def __init__(self, model, law):
         laws = np.array([model.joint_law(p) for p in model.pairs])
         area = np.array([p.area for p in model.pairs])
         self.kn, self.ks, self.friction = laws[:, 0] * area, laws[:, 1] * area, laws[:, 2]
         self.slip = np.zeros(len(area))
-        self.forgets = law == "coulomb"
+        self.law = law
 
     def jumps(self, model):
         """B: the tangential, then the normal jump of every pair, ground minus body, over the free dofs."""
@@ -50,10 +54,10 @@ class Joints:
         sticks = closed & (np.abs(trial) <= limit)
         tau = np.where(sticks, trial, np.copysign(limit, trial))
         status = np.where(~closed, OPEN, np.where(sticks, STICK, np.where(trial > 0, FORWARD, BACKWARD)))
-        if self.forgets:
-            slip = np.where(sticks, self.slip, s - tau / self.ks)
-        else:  # the whole jump is taken for slip where it slips, and nothing changes where it is open
+        if self.law == "opensees":
             slip = np.where(status >= FORWARD, s, self.slip)
+        else:
+            slip = np.where(sticks, self.slip, s - tau / self.ks)
         return np.concatenate([tau, -pressure]), status, slip
 
     def tangent(self, status):
