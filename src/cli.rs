@@ -51,8 +51,66 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Load parameters of an explosion, its pulse and the curve
+    Blast(BlastArguments),
     /// Print the JSON Schema of the case file, for editors
     Schema,
+}
+
+#[derive(Debug, Args)]
+pub struct BlastArguments {
+    /// Mass of the charge, as "500 kg"
+    #[arg(long)]
+    charge: String,
+    /// Distance along the ground, as "20 m"
+    #[arg(long)]
+    standoff: Option<String>,
+    /// Height of the burst above the ground
+    #[arg(long)]
+    height: Option<String>,
+    /// tnt, anfo, composition_b, c4, h6, minol, octol, petn, pentolite, tetryl, tritonal [default: tnt]
+    #[arg(long)]
+    explosive: Option<String>,
+    /// Mass of TNT that a unit mass of the explosive equals [default: the explosive's]
+    #[arg(long)]
+    equivalence: Option<String>,
+    /// kingery_bulmash, swisdak, kinney_graham, sadovsky, sadovsky_manuals, brode, henrych, mills, newmark_hansen
+    /// [default: kingery_bulmash]
+    #[arg(long)]
+    formula: Option<String>,
+    /// hemispherical, spherical [default: spherical with a height, else hemispherical]
+    #[arg(long)]
+    burst: Option<String>,
+    /// Pressure of the pulse that is drawn: incident, reflected
+    #[arg(long, default_value = "incident")]
+    wave: String,
+    /// Its form: friedlander, tangent, equal_impulse
+    #[arg(long, default_value = "friedlander")]
+    form: String,
+    /// Write the curve: FILE.csv, which the law "table" reads, or FILE.svg
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print JSON, in SI
+    #[arg(long)]
+    json: bool,
+}
+
+impl BlastArguments {
+    fn request(self) -> study::blast::Request {
+        let keys = [
+            ("charge", Some(self.charge)),
+            ("standoff", self.standoff),
+            ("height", self.height),
+            ("explosive", self.explosive),
+            ("equivalence", self.equivalence),
+            ("formula", self.formula),
+            ("burst", self.burst),
+            ("wave", Some(self.wave)),
+            ("form", Some(self.form)),
+        ];
+        let keys = keys.into_iter().filter_map(|(key, text)| Some((key, text?))).collect();
+        study::blast::Request { keys, out: self.out, json: self.json }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -108,6 +166,7 @@ pub fn execute(command: Command) -> Result<String> {
         Command::Mesh { case } => study::mesh::command(&case.request()?),
         Command::Check { case } => study::check::command(&case.request()?),
         Command::Modes { case, count, out } => study::modes::command(&Request { out, ..case.request()? }, count),
+        Command::Blast(arguments) => study::blast::command(&arguments.request()),
         Command::Schema => Ok(study::schema()),
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use coralpipe::Error;
-use coralpipe::model::case::{self, Axis, Case, Geometry, Integration, Load, Mass, Probe, Rayleigh, Start};
+use coralpipe::model::case::{self, Axis, Case, Geometry, Integration, Load, Mass, Pressure, Probe, Rayleigh, Start};
 use coralpipe::physics::pulse::Pulse;
 use serde_json::{Value, json};
 
@@ -67,7 +67,10 @@ fn the_papers_case_reads_as_the_papers_numbers_in_si() {
     assert_eq!(case.supports["base"], [Axis::X, Axis::Y]);
     assert_eq!(case.supports["side_left"].iter().map(|axis| axis.index()).collect::<Vec<_>>(), [0]);
     let loads: Vec<_> = case.loads.iter().collect();
-    assert_eq!(loads, [("surface", &Load::Pressure(Pulse::Linear { peak: 100e3, duration: 0.05 }))]);
+    assert_eq!(
+        loads,
+        [("surface", &Load::Pressure(Pressure::Simultaneous(Pulse::Linear { peak: 100e3, duration: 0.05 })))]
+    );
     assert_eq!(case.damping.unwrap().rayleigh, Rayleigh::Ratio { ratio: 0.05, modes: [1, 2] });
     assert!(close(case.time.step.0, 1e-4) && close(case.time.end.0, 0.1) && close(case.frame_interval(), 1e-3));
     assert_eq!(case.probes.iter().map(Probe::name).collect::<Vec<_>>(), ["A", "C", "H", "K", "L", "I"]);
@@ -132,11 +135,13 @@ fn loads_of_every_kind_and_law_are_read_alone_or_in_a_list() {
     ]"#;
     let case = with(set).unwrap();
     let loads: Vec<_> = case.loads.iter().collect();
-    assert_eq!(loads[0], ("surface", &Load::Pressure(Pulse::Step { peak: 2e5 })));
-    assert_eq!(loads[1].1.pulse(), &Pulse::Step { peak: 4e3 });
+    assert_eq!(loads[0], ("surface", &Load::Pressure(Pressure::Simultaneous(Pulse::Step { peak: 2e5 }))));
+    let Load::BodyForce(body_force) = loads[1].1 else { panic!("{loads:?}") };
+    assert_eq!(body_force.pulse, Pulse::Step { peak: 4e3 });
     let Load::Traction(traction) = loads[2].1 else { panic!("{loads:?}") };
     assert_eq!((traction.direction, &traction.pulse), ([0.6, -0.8], &Pulse::Step { peak: 3e3 }));
-    assert_eq!(loads[3].1.pulse(), &Pulse::Table { times: vec![0.0, 5e-3], values: vec![0.0, 6e3] });
+    let Load::Force(force) = loads[3].1 else { panic!("{loads:?}") };
+    assert_eq!(force.pulse, Pulse::Table { times: vec![0.0, 5e-3], values: vec![0.0, 6e3] });
 }
 
 #[test]
@@ -156,7 +161,7 @@ fn a_table_in_a_file_lies_beside_the_case_and_becomes_part_of_what_was_calculate
     {
         let case = read_with(table).unwrap();
         let expected = Pulse::Table { times: vec![0.0, 1e-3, 0.05], values: vec![0.0, 5e4, 0.0] };
-        assert_eq!(case.loads.iter().next().unwrap().1, &Load::Pressure(expected), "{table:?}");
+        assert_eq!(case.loads.iter().next().unwrap().1, &Load::Pressure(Pressure::Simultaneous(expected)), "{table:?}");
         assert_eq!(case.json()["loads"]["surface"]["pressure"]["values"], json!([0.0, 5e4, 0.0]));
     }
     for (table, words) in [
@@ -225,7 +230,11 @@ fn every_impossible_value_is_a_sentence_with_file_path_value_and_range() {
         ("damping.alpha=5", "damping", "either \"ratio\" with \"modes\", or both \"alpha\" and \"beta\""),
         ("loads.surface.pressure.duration=0", "loads.surface.pressure.duration", "greater than 0"),
         ("loads.surface.pressure.peak=1 kg", "loads.surface.pressure.peak", "is not a pressure"),
-        ("loads.surface.pressure.law=triangle", "loads.surface.pressure.law", "there are: linear, step, table"),
+        (
+            "loads.surface.pressure.law=triangle",
+            "loads.surface.pressure.law",
+            "there are: linear, step, table, ramp, half_sine, friedlander, charge",
+        ),
         (
             "loads.surface.pressure.law=step",
             "loads.surface.pressure",

@@ -248,6 +248,8 @@ fn usage_errors_end_with_2() {
         "modes block.json -n -1",
         "check block.json --bonded",
         "schema block.json",
+        "blast",
+        "blast block.json",
     ];
     for line in lines {
         let Outcome { code, stdout, stderr } = bench.run_line(line);
@@ -351,7 +353,14 @@ fn results_go_to_stdout_and_all_else_to_stderr() {
     let quiet = bench.run_line("run block.json --quiet");
     assert_eq!((quiet.code, quiet.stderr.as_str()), (Some(0), ""));
     assert!(quiet.stdout.contains("results in output/block\n"));
-    for line in ["schema", "check block.json", "modes block.json --out m", "--version", "run --help"] {
+    for line in [
+        "schema",
+        "check block.json",
+        "modes block.json --out m",
+        "blast --charge 1t --standoff 30m",
+        "--version",
+        "run --help",
+    ] {
         let outcome = bench.run_line(line);
         assert!(outcome.code == Some(0) && !outcome.stdout.is_empty(), "{line}: {}", outcome.stderr);
     }

@@ -426,3 +426,24 @@ fn a_body_of_another_shape_is_no_ring() {
     assert_eq!(RingShape::find(&mesh, &pipe[1..]), None);
     assert_eq!(RingShape::find(&mesh, &[]), None);
 }
+
+/// A front that takes 1 ns over the bore is a load everywhere at once: the same section forces to round-off.
+#[test]
+fn a_front_over_the_bore_gives_the_ring_its_load() {
+    let mesh =
+        Polar { shape: Shape::Quad8, rays: 32, radii: [0.4, 0.6], layers: 2, ground_layers: 0, width: 0.6 }.mesh();
+    let ring = |name: &str, front: &str| {
+        let json = format!(
+            r#"{{ "analysis": "static", "materials": {{ "pipe": {{ "young": 2.1e11, "poisson": 0.3, "density": 7800 }} }},
+            "interfaces": {{ "interface": {{ "body": "pipe" }} }}, {HELD}, "time": {{ "step": 1, "end": 1 }},
+            "loads": {{ "bore": {{ "pressure": {{ "law": "step", "peak": "1 MPa"{front} }} }} }} }}"#
+        );
+        let prepared = prepared(name, &json, &mesh, true);
+        sections(&prepared, &statics(&prepared))
+    };
+    let front = r#", "front": { "speed": 1e9, "direction": [1, 0.3] }"#;
+    for (at_once, swept) in ring("bore_at_once", "").iter().zip(&ring("bore_swept", front)) {
+        assert!((at_once.normal_force / swept.normal_force - 1.).abs() < 1e-9);
+        assert!((at_once.moment - swept.moment).abs() < 1e-9 * 1e6);
+    }
+}

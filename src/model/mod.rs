@@ -10,4 +10,5 @@ pub mod quality;
 pub mod resolve;
 pub mod ring;
 pub mod split;
+pub mod sweep;
 pub mod units;

@@ -6,6 +6,7 @@ use super::mesh::Mesh;
 use super::probes::{NodeProbe, probes};
 use super::quality;
 use super::split::{self, Joint, Pair, Seam};
+use super::sweep::Sweep;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
@@ -71,8 +72,11 @@ pub struct TimeGrid {
 pub struct Load {
     pub group: String,
     /// [Pa], [N/m^3] or [N/m], as the target says
+    /// where it sweeps, the history at the point that it reaches first
     pub pulse: Pulse,
     pub target: Target,
+    /// how it sweeps over its lines, if it does not act everywhere at once
+    pub sweep: Option<Sweep>,
 }
 
 /// Where a load acts, per unit of its pulse.
@@ -271,14 +275,32 @@ fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
     let sides = solid_sides(mesh);
     let load = |(name, load): (&str, &case::Load)| {
         let group = |dimension| mesh.group_of(name, dimension, "load");
-        let lines = || Ok(border(mesh, group(1)?, &sides)?.into_iter().map(|(line, _)| line).collect());
-        let target = match load {
-            case::Load::Pressure(_) => Target::Pressure { lines: lines()? },
-            case::Load::Traction(d) => Target::Traction { lines: lines()?, direction: d.direction },
-            case::Load::BodyForce(d) => Target::BodyForce { cells: group(2)?.cells.clone(), direction: d.direction },
-            case::Load::Force(d) => Target::Force { nodes: mesh.nodes_of(group(0)?), direction: d.direction },
+        let lines = || -> Result<Vec<Border>> {
+            Ok(border(mesh, group(1)?, &sides)?.into_iter().map(|(line, _)| line).collect())
         };
-        Ok(Load { group: name.to_string(), pulse: load.pulse().clone(), target })
+        let (target, pulse) = match load {
+            case::Load::Pressure(case::Pressure::Sweeping(front, clock)) => {
+                let lines = lines()?;
+                let sweep = Sweep::new(mesh, &lines, front, *clock)
+                    .map_err(|e| Error::input(format!("load \"{name}\": {e}")))?;
+                let pulse = sweep.first_pulse();
+                return Ok(Load {
+                    group: name.to_string(),
+                    pulse,
+                    target: Target::Pressure { lines },
+                    sweep: Some(sweep),
+                });
+            }
+            case::Load::Pressure(case::Pressure::Simultaneous(pulse)) => (Target::Pressure { lines: lines()? }, pulse),
+            case::Load::Traction(d) => (Target::Traction { lines: lines()?, direction: d.direction }, &d.pulse),
+            case::Load::BodyForce(d) => {
+                (Target::BodyForce { cells: group(2)?.cells.clone(), direction: d.direction }, &d.pulse)
+            }
+            case::Load::Force(d) => {
+                (Target::Force { nodes: mesh.nodes_of(group(0)?), direction: d.direction }, &d.pulse)
+            }
+        };
+        Ok(Load { group: name.to_string(), pulse: pulse.clone(), target, sweep: None })
     };
     case.loads.iter().map(load).collect()
 }

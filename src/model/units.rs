@@ -116,6 +116,19 @@ quantity! {
 }
 
 quantity! {
+    /// Mass [kg].
+    Mass, "a mass", &[("kg", 1.0), ("g", 1e-3), ("t", 1e3), ("kt", 1e6), ("lb", 0.453_592_37)]
+}
+
+quantity! {
+    /// Pressure times time [Pa s].
+    Impulse, "an impulse of a pressure", &[
+        ("Pa s", 1.0), ("kPa s", 1e3), ("kPa ms", 1.0), ("MPa ms", 1e3), ("bar ms", 1e2),
+        ("psi ms", 1e-3 * POUND_FORCE / (INCH * INCH)),
+    ]
+}
+
+quantity! {
     /// Force per volume [N/m^3].
     ForceDensity, "a force per volume", &[
         ("N/m^3", 1.0), ("kN/m^3", 1e3), ("MN/m^3", 1e6), ("N/cm^3", 1e6), ("kgf/m^3", KGF),

@@ -51,6 +51,21 @@ impl Material {
     pub fn s_speed(&self) -> f64 {
         (self.shear_modulus() / self.density).sqrt()
     }
+
+    /// Speed of Rayleigh's surface wave c [m/s]: x = (c/c_s)^2 in (0, 1) with
+    /// x^3 - 8 x^2 + (24 - 16 k) x - 16 (1 - k) = 0, k = (c_s/c_p)^2.
+    pub fn rayleigh_speed(&self) -> f64 {
+        let k = (self.s_speed() / self.p_speed()).powi(2);
+        let [mut low, mut high] = [0.1, 1.]; // negative at 0.1 for every nu > -1, and 1 at 1
+        for _ in 0..60 {
+            let x: f64 = (low + high) / 2.;
+            match x.powi(3) - 8. * x * x + (24. - 16. * k) * x - 16. * (1. - k) < 0. {
+                true => low = x,
+                false => high = x,
+            }
+        }
+        self.s_speed() * f64::sqrt((low + high) / 2.)
+    }
 }
 
 #[cfg(test)]
@@ -88,5 +103,15 @@ mod tests {
         let (stress, deviator) = (m.plane_strain() * strain, m.deviatoric() * strain);
         let out_of_plane = m.bulk_modulus() * (strain[0] + strain[1]) - deviator[0] - deviator[1];
         assert!((out_of_plane - 0.3 * (stress[0] + stress[1])).abs() < 1e-14);
+    }
+
+    /// The three layers of the paper: speeds computed independently, five digits.
+    #[test]
+    fn rayleigh_waves_of_the_layers_have_the_reference_speeds() {
+        let layers = [(183e6, 0.46, 2200., 160.39), (519e6, 0.38, 2600., 252.63), (863e6, 0.27, 2700., 327.30)];
+        for (young, poisson, density, expected) in layers {
+            let c = Material { young, poisson, density }.rayleigh_speed();
+            assert!((c - expected).abs() < 0.006, "{c}, not {expected} m/s");
+        }
     }
 }

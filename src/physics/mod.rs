@@ -1,6 +1,9 @@
 //! Physics that knows no mesh: element, material, joint law, histories in time.
 
 pub mod element;
+pub mod explosion;
+pub mod friedlander;
+pub mod front;
 pub mod joint;
 pub mod material;
 pub mod pulse;

@@ -1,5 +1,7 @@
 //! Histories in time of a load: every law is zero before t = 0.
 
+use std::f64::consts::PI;
+
 /// The value of a load over time; a peak or value in the load's own unit [Pa, N/m^3 or N/m], times in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pulse {
@@ -7,8 +9,28 @@ pub enum Pulse {
     Linear { peak: f64, duration: f64 },
     /// p(t) = peak for t >= 0.
     Step { peak: f64 },
+    /// p(t) = peak t/duration until `duration`, then peak.
+    Ramp { peak: f64, duration: f64 },
+    /// p(t) = peak sin(pi t/duration) for 0 <= t <= duration, then 0.
+    HalfSine { peak: f64, duration: f64 },
+    /// Modified Friedlander pulse: p(t) = peak (1 - t/duration) exp(-decay t/duration) for 0 <= t <= duration, then its
+    /// negative phase, if it has one.
+    Friedlander { peak: f64, duration: f64, decay: f64, negative: Option<Suction> },
     /// Straight lines between the points, times strictly ascending: zero before the first, the last value held after it.
     Table { times: Vec<f64>, values: Vec<f64> },
+    /// Nothing before `start`, then a straight line to the law's first value within `rise`, then the law:
+    /// p(t) = law(t - start - rise).
+    Delayed { law: Box<Pulse>, start: f64, rise: f64 },
+}
+
+/// Negative phase p(t) = -6.75 peak s (1 - s)^2 of 0 <= s <= 1, s the time since the positive phase over `duration`;
+/// deepest, -peak, at s = 1/3 (NAVFAC DM 2.08).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Suction {
+    /// greater than 0, in the load's own unit
+    pub peak: f64,
+    /// [s]
+    pub duration: f64,
 }
 
 impl Pulse {
@@ -19,16 +41,79 @@ impl Pulse {
             Pulse::Linear { .. } => 0.0,
             Pulse::Step { peak } if t >= 0.0 => *peak,
             Pulse::Step { .. } => 0.0,
+            Pulse::Ramp { peak, duration } => peak * (t / duration).clamp(0.0, 1.0),
+            Pulse::HalfSine { peak, duration } if (0.0..=*duration).contains(&t) => peak * (PI * t / duration).sin(),
+            Pulse::HalfSine { .. } => 0.0,
+            Pulse::Friedlander { peak, duration, decay, .. } if (0.0..=*duration).contains(&t) => {
+                peak * (1.0 - t / duration) * (-decay * t / duration).exp()
+            }
+            Pulse::Friedlander { duration, negative, .. } => negative.map_or(0.0, |n| n.at(t - duration)),
             Pulse::Table { times, values } => interpolate(times, values, t),
+            Pulse::Delayed { law, start, rise } => match t - start - law.start() {
+                since if since < 0.0 => 0.0,
+                since if since < *rise => law.at(law.start()) * since / rise,
+                _ => law.at(t - start - rise),
+            },
+        }
+    }
+
+    /// The time from which on the load may be other than zero [s].
+    pub fn start(&self) -> f64 {
+        match self {
+            Pulse::Table { times, .. } => times.first().copied().unwrap_or(0.0),
+            Pulse::Delayed { law, start, .. } => start + law.start(),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether it begins with a jump, from zero to a value.
+    pub fn jumps(&self) -> bool {
+        self.at(self.start()) != 0.0
+    }
+
+    /// The same history, `factor` times as large.
+    pub fn scaled(self, factor: f64) -> Pulse {
+        match self {
+            Pulse::Linear { peak, duration } => Pulse::Linear { peak: factor * peak, duration },
+            Pulse::Step { peak } => Pulse::Step { peak: factor * peak },
+            Pulse::Ramp { peak, duration } => Pulse::Ramp { peak: factor * peak, duration },
+            Pulse::HalfSine { peak, duration } => Pulse::HalfSine { peak: factor * peak, duration },
+            Pulse::Friedlander { peak, duration, decay, negative } => {
+                let negative = negative.map(|n| Suction { peak: factor * n.peak, ..n });
+                Pulse::Friedlander { peak: factor * peak, duration, decay, negative }
+            }
+            Pulse::Table { times, values } => {
+                Pulse::Table { times, values: values.into_iter().map(|v| factor * v).collect() }
+            }
+            Pulse::Delayed { law, start, rise } => Pulse::Delayed { law: Box::new(law.scaled(factor)), start, rise },
+        }
+    }
+
+    /// The same history, later by `start`, and with a straight line of `rise` in place of its first jump [s].
+    pub fn delayed(self, start: f64, rise: f64) -> Pulse {
+        match start == 0.0 && rise == 0.0 {
+            true => self,
+            false => Pulse::Delayed { law: Box::new(self), start, rise },
         }
     }
 
     /// Time the load takes from zero to its greatest magnitude [s]; 0 where it jumps.
     pub fn rise_time(&self) -> f64 {
         match self {
-            Pulse::Linear { .. } | Pulse::Step { .. } => 0.0,
+            Pulse::Linear { .. } | Pulse::Step { .. } | Pulse::Friedlander { .. } => 0.0,
+            Pulse::Ramp { duration, .. } => *duration,
+            Pulse::HalfSine { duration, .. } => duration / 2.0,
             Pulse::Table { times, values } => rise_of(times, values),
+            Pulse::Delayed { law, rise, .. } => rise + law.rise_time(),
         }
+    }
+}
+
+impl Suction {
+    /// `t` since the end of the positive phase [s].
+    fn at(&self, t: f64) -> f64 {
+        let s = (t / self.duration).clamp(0.0, 1.0);
+        -6.75 * self.peak * s * (1.0 - s).powi(2)
     }
 }
 
@@ -98,5 +183,45 @@ mod tests {
         assert_eq!(rise(&[0.0, 0.0, -5.0, 0.0]), 2.0);
         assert_eq!(rise(&[1.0, 2.0, 5.0, 0.0]), 0.0);
         assert_eq!(rise(&[0.0; 4]), 0.0);
+    }
+
+    /// NAVFAC DM 2.08: the negative phase is deepest, exactly its peak, at a third of its duration.
+    #[test]
+    fn the_negative_phase_has_its_peak_at_a_third_and_ends() {
+        let p = |t| {
+            let negative = Some(Suction { peak: 2.0, duration: 3.0 });
+            Pulse::Friedlander { peak: 10.0, duration: 1.0, decay: 1.5, negative }.at(t)
+        };
+        assert_eq!([p(-1e-9), p(0.0), p(1.0), p(4.0), p(9.0)], [0.0, 10.0, 0.0, 0.0, 0.0]);
+        assert!((p(2.0) + 2.0).abs() < 1e-14);
+        assert!((p(0.5) - 10.0 * 0.5 * (-0.75_f64).exp()).abs() < 1e-14);
+        assert!(p(1.9) > -2.0 && p(2.1) > -2.0);
+    }
+
+    #[test]
+    fn a_ramp_is_held_and_a_half_sine_ends() {
+        let ramp = Pulse::Ramp { peak: 4.0, duration: 2.0 };
+        assert_eq!([-1.0, 0.0, 0.5, 2.0, 7.0].map(|t| ramp.at(t)), [0.0, 0.0, 1.0, 4.0, 4.0]);
+        let sine = Pulse::HalfSine { peak: 4.0, duration: 2.0 };
+        let expected = [0.0, 0.0, 4.0 * 0.5_f64.sqrt(), 4.0, 0.0];
+        for (t, p) in [-0.5, 0.0, 0.5, 1.0, 2.1].into_iter().zip(expected) {
+            assert!((sine.at(t) - p).abs() < 1e-15, "t = {t}");
+        }
+        assert_eq!([ramp.rise_time(), sine.rise_time()], [2.0, 1.0]);
+    }
+
+    #[test]
+    fn a_rise_goes_straight_to_the_first_value_and_keeps_the_law_behind_it() {
+        let p = Pulse::Linear { peak: 8.0, duration: 4.0 }.delayed(10.0, 2.0);
+        for (t, expected) in [(9.9, 0.0), (10.0, 0.0), (11.0, 4.0), (12.0, 8.0), (14.0, 4.0), (16.0, 0.0), (17.0, 0.0)]
+        {
+            assert!((p.at(t) - expected).abs() < 1e-15, "t = {t}");
+        }
+        assert_eq!((p.start(), p.rise_time(), p.jumps()), (10.0, 2.0, false));
+        let table = Pulse::Table { times: vec![1.0, 2.0], values: vec![6.0, 0.0] }.delayed(0.0, 0.5);
+        assert_eq!([0.9, 1.25, 1.5, 2.0, 2.5].map(|t| table.at(t)), [0.0, 3.0, 6.0, 3.0, 0.0]);
+        let twice = p.clone().scaled(2.0);
+        assert!([11.0, 13.0].iter().all(|&t| twice.at(t) == 2.0 * p.at(t)));
+        assert_eq!(Pulse::Step { peak: 1.0 }.delayed(0.0, 0.0), Pulse::Step { peak: 1.0 });
     }
 }

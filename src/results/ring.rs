@@ -61,14 +61,22 @@ struct Element {
     stiffness: DMatrix<f64>,
     mass: DMatrix<f64>,
     weight: DVector<f64>,
-    /// (which of the model, force per unit of its pulse)
-    loads: Vec<(usize, DVector<f64>)>,
+    /// (which of the model, what it does here)
+    loads: Vec<(usize, ElementLoad)>,
     /// (joint point, node of the element, N)
     joints: Vec<(usize, usize, f64)>,
     /// where it ends at a ray
     ends: Vec<End>,
     /// where it carries the outer face
     outer: Vec<Outer>,
+}
+
+/// One line's or face's share of a load.
+enum ElementLoad {
+    /// force per unit of the pulse
+    Simultaneous(DVector<f64>),
+    /// the line's number among those the front sweeps over
+    Sweeping(usize),
 }
 
 /// A node that an element has on a ray.
@@ -166,9 +174,29 @@ impl Element {
         let [u, v, a] = [&state.q, &state.v, &state.a].map(|x| {
             DVector::from_iterator(2 * self.nodes.len(), self.nodes.iter().flat_map(|&n| system.unknowns.at_node(x, n)))
         });
-        let loads = self.loads.iter().map(|(load, force)| force * model.loads[*load].pulse.at(state.time));
+        let load = |(number, line): &(usize, ElementLoad)| {
+            let load = &model.loads[*number];
+            match line {
+                ElementLoad::Simultaneous(force) => force * load.pulse.at(state.time),
+                ElementLoad::Sweeping(line) => {
+                    let forces = load.sweep.iter().flat_map(|sweep| sweep.forces_on(*line, state.time));
+                    forces.fold(DVector::zeros(2 * self.nodes.len()), |sum, at_node| sum + self.on_nodes(&[at_node]))
+                }
+            }
+        };
         let inner = &self.stiffness * (u + &v * beta) + &self.mass * (a + v * alpha);
-        loads.fold(inner - &self.weight, |p, load| p - load)
+        self.loads.iter().map(load).fold(inner - &self.weight, |p, load| p - load)
+    }
+
+    /// Forces on some of its nodes as a vector of them all.
+    fn on_nodes(&self, forces: &[(usize, [f64; 2])]) -> DVector<f64> {
+        let mut vector = DVector::zeros(2 * self.nodes.len());
+        for (node, force) in forces {
+            let local = self.nodes.iter().position(|n| n == node).expect("the line is the element's own");
+            vector[2 * local] += force[0];
+            vector[2 * local + 1] += force[1];
+        }
+        vector
     }
 
     /// Sum of N area R' t over its joint points [N].
@@ -293,12 +321,8 @@ fn add_loads(elements: &mut [Element], model: &Model) {
     let add = |elements: &mut [Element], forces: &assembly::NodalForces, put: &dyn Fn(&mut Element, DVector<f64>)| {
         let holds_all = |e: &&mut Element| forces.nodes.iter().all(|n| e.nodes.contains(n));
         if let Some(element) = elements.iter_mut().find(holds_all).filter(|_| forces.nodes.len() > 1) {
-            let mut vector = DVector::zeros(2 * element.nodes.len());
-            for (node, force) in forces.nodes.iter().zip(&forces.forces) {
-                let local = element.nodes.iter().position(|n| n == node).expect("it holds all");
-                vector[2 * local] += force[0];
-                vector[2 * local + 1] += force[1];
-            }
+            let at_nodes: Vec<_> = forces.nodes.iter().copied().zip(forces.forces.iter().copied()).collect();
+            let vector = element.on_nodes(&at_nodes);
             put(element, vector);
         }
     };
@@ -306,8 +330,14 @@ fn add_loads(elements: &mut [Element], model: &Model) {
         add(elements, &forces, &|element, weight| element.weight += weight);
     }
     for (number, load) in model.loads.iter().enumerate() {
-        for forces in assembly::nodal_forces(model, &load.target) {
-            add(elements, &forces, &|element, force| element.loads.push((number, force)));
+        for (line, forces) in assembly::nodal_forces(model, &load.target).iter().enumerate() {
+            add(elements, forces, &|element, force| {
+                let share = match load.sweep {
+                    None => ElementLoad::Simultaneous(force),
+                    Some(_) => ElementLoad::Sweeping(line),
+                };
+                element.loads.push((number, share));
+            });
         }
     }
 }

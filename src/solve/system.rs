@@ -5,6 +5,7 @@ use super::interface::{Interface, JointState};
 use super::unknowns::Unknowns;
 use crate::Result;
 use crate::model::resolve::Model;
+use crate::model::sweep::Sweep;
 use crate::physics::pulse::Pulse;
 use crate::sparse::{Symbolic, Upper};
 use serde::Serialize;
@@ -29,6 +30,8 @@ pub struct System {
     pub gravity: Vec<f64>,
     /// spatial vector [N per unit of the pulse] and history
     loads: Vec<(Vec<f64>, Pulse)>,
+    /// loads that do not act everywhere at once
+    sweeps: Vec<Sweep>,
 }
 
 /// K, M and C as every step reads them: the upper triangles' values.
@@ -66,7 +69,8 @@ impl System {
         let (stiffness, mass) = assembly::stiffness_and_mass(model, &unknowns);
         let interface =
             Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump);
-        let loads = model.loads.iter().map(|load| (assembly::load(model, &unknowns, load), load.pulse.clone()));
+        let simultaneous = model.loads.iter().filter(|load| load.sweep.is_none());
+        let loads = simultaneous.map(|load| (assembly::load(model, &unknowns, load), load.pulse.clone()));
         let dashpots = (!model.dashpots.is_empty()).then(|| assembly::dashpots(model, &unknowns, scaled(&mass, 0.)));
         let damping = dashpots.clone().unwrap_or_else(|| scaled(&mass, 0.));
         let pattern = Upper::new(&mass);
@@ -78,6 +82,7 @@ impl System {
             joint_beta: None,
             gravity: assembly::gravity(model, &unknowns),
             loads: loads.collect(),
+            sweeps: model.loads.iter().filter_map(|load| load.sweep.clone()).collect(),
             unknowns,
             stiffness,
             mass,
@@ -108,6 +113,11 @@ impl System {
         for (vector, pulse) in &self.loads {
             let factor = pulse.at(time);
             f.iter_mut().zip(vector).for_each(|(f, r)| *f += factor * r);
+        }
+        for (node, force) in self.sweeps.iter().flat_map(|sweep| sweep.forces(time)) {
+            for axis in 0..2 {
+                self.unknowns.row(node, axis).iter().for_each(|&(i, sign)| f[i] += sign * force[axis]);
+            }
         }
         f
     }

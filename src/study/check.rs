@@ -1,13 +1,13 @@
 //! `coralpipe check`: everything that can be wrong with a case or a mesh, found without solving.
 
+use super::loads;
 use super::run::{Loaded, Request, load};
-use crate::model::case::{Case, Load};
+use crate::model::case::Case;
 use crate::model::mesh::{Group, Mesh};
 use crate::model::quality;
 use crate::model::resolve::Model;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
-use crate::physics::pulse::Pulse;
 use crate::solve::unknowns::Unknowns;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -34,7 +34,7 @@ pub fn command(request: &Request) -> Result<String> {
         groups(&meshed.mesh, |group| taken_for(group, &case, &model)),
         shapes(&meshed.mesh),
         waves(&model),
-        time_and_loads(&case, &model),
+        time(&model) + &loads::report(&model),
         warnings(&meshed.mesh, &model),
     ];
     Ok(report(&parts))
@@ -87,15 +87,7 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
     if case.boundaries.contains_key(&group.name) {
         roles.push("viscous boundary".into());
     }
-    for (_, load) in case.loads.iter().filter(|(name, _)| *name == group.name) {
-        let kind = match load {
-            Load::Pressure(_) => "pressure",
-            Load::Traction(_) => "traction",
-            Load::BodyForce(_) => "body force",
-            Load::Force(_) => "force",
-        };
-        roles.push(format!("load: {kind}, {}", pulse(load.pulse())));
-    }
+    roles.extend(model.loads.iter().filter(|load| load.group == group.name).map(loads::role));
     if model.probes.iter().any(|p| p.name == group.name) {
         roles.push("probe".into());
     }
@@ -133,17 +125,6 @@ fn interface_role(seam: usize, model: &Model) -> String {
         )
     });
     format!("interface of {}: {}", model.seams[seam].body, text.collect::<Vec<_>>().join("; "))
-}
-
-fn pulse(pulse: &Pulse) -> String {
-    match pulse {
-        Pulse::Linear { peak, duration } => format!("linear from {peak} at t = 0 to zero at {duration} s"),
-        Pulse::Step { peak } => format!("step of {peak} at t = 0"),
-        Pulse::Table { times, values } => {
-            let largest = values.iter().fold(0f64, |m, v| if v.abs() > m.abs() { *v } else { m });
-            format!("table of {} times, largest value {largest}", times.len())
-        }
-    }
 }
 
 /// The worst angle and the sides, each with its place.
@@ -197,25 +178,15 @@ fn size_range(model: &Model, material: usize) -> [f64; 2] {
     sides.fold([f64::INFINITY, 0.], |[low, high], [l, h]| [low.min(l), high.max(h)])
 }
 
-fn time_and_loads(case: &Case, model: &Model) -> String {
+fn time(model: &Model) -> String {
     let time = &model.time;
-    let mut text = format!(
+    format!(
         "time\n  {} steps of {} s to {} s, a frame every {} steps\n",
         time.steps,
         time.step,
         time.step * time.steps as f64,
         time.steps_per_frame
-    );
-    for (group, load) in case.loads.iter() {
-        let rise = load.pulse().rise_time();
-        text += &match rise > 0. {
-            true => format!("  load on {group} rises in {rise} s: {:.1} time steps\n", rise / time.step),
-            false => format!(
-                "  load on {group} jumps: peak accelerations follow the element size and the time step, displacements do not\n"
-            ),
-        };
-    }
-    text
+    )
 }
 
 fn warnings(mesh: &Mesh, model: &Model) -> String {

@@ -1,8 +1,11 @@
 //! Whole runs: what each command does, from the case file to the last line on the screen.
 
+pub mod blast;
 pub mod check;
 pub mod constants;
+mod curve;
 pub mod gmsh;
+mod loads;
 pub mod mesh;
 pub mod meshing;
 pub mod modes;

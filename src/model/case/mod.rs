@@ -5,7 +5,9 @@
 
 mod damping;
 mod duplicate;
+mod explosion;
 mod interface;
+mod law;
 mod load;
 mod material;
 mod probe;
@@ -27,11 +29,12 @@ use crate::model::units::{Acceleration, Length, Velocity};
 
 use damping::DampingKeys;
 pub use damping::{Damping, Rayleigh};
+pub use explosion::{Blast, ExplosionKeys};
 pub use interface::{Integration, Interface};
-pub use load::{Directed, Load, Loads};
+pub use load::{Clock, Directed, Load, Loads, Pressure};
 pub use material::Material;
 pub use probe::Probe;
-pub use sentence::nearest;
+pub use sentence::{from_serde as sentence_of, nearest};
 pub use time::{Integrator, Newmark, Newton, Output, Start, TimeStepping};
 
 /// Materials, interfaces, supports, loads and time of one calculation; every name is a physical group of the mesh.

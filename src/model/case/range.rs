@@ -61,6 +61,11 @@ pub fn tolerance<'de, D: Deserializer<'de>>(input: D) -> Result<f64, D::Error> {
     check(tolerance, 0.0 < tolerance && tolerance < 1.0, "greater than 0 and less than 1")
 }
 
+pub fn optional_decay<'de, D: Deserializer<'de>>(input: D) -> Result<Option<f64>, D::Error> {
+    let must = "greater than -1 (the pulse would grow)";
+    Option::<f64>::deserialize(input)?.map(|decay| check(decay, decay > -1.0, must)).transpose()
+}
+
 pub fn at_least_one<'de, D: Deserializer<'de>>(input: D) -> Result<usize, D::Error> {
     let count = usize::deserialize(input)?;
     check(count, count >= 1, "at least 1")

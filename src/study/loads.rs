@@ -1,0 +1,114 @@
+//! What `check` says of loads: their laws, their rise against the time step, their fronts against the ground's waves.
+
+use crate::model::resolve::{Load, Model, Target};
+use crate::model::sweep::Sweep;
+use crate::physics::material::Material;
+use crate::physics::pulse::Pulse;
+
+/// What a load does to its group.
+pub fn role(load: &Load) -> String {
+    let kind = match load.target {
+        Target::Pressure { .. } => "pressure",
+        Target::Traction { .. } => "traction",
+        Target::BodyForce { .. } => "body force",
+        Target::Force { .. } => "force",
+    };
+    let front = if load.sweep.is_some() { " behind a front, where it comes first" } else { "" };
+    format!("load: {kind}{front}, {}", law(&load.pulse))
+}
+
+/// For each load its rise, and where it sweeps its front.
+pub fn report(model: &Model) -> String {
+    model
+        .loads
+        .iter()
+        .map(|load| rise(load, model.time.step) + &load.sweep.as_ref().map_or(String::new(), |s| front(s, model)))
+        .collect()
+}
+
+fn rise(load: &Load, step: f64) -> String {
+    let rise = load.pulse.rise_time();
+    match rise > 0. {
+        true => format!("  load on {} rises in {rise} s: {:.1} time steps\n", load.group, rise / step),
+        false => format!(
+            "  load on {} jumps: peak accelerations follow the element size and the time step, displacements do not\n",
+            load.group
+        ),
+    }
+}
+
+/// The front's speed along its lines against the waves of every ground.
+fn front(sweep: &Sweep, model: &Model) -> String {
+    let ([slow, fast], [first, last]) = (sweep.trace_speeds(), sweep.passage());
+    let speeds = if fast - slow < 1e-6 * slow { format!("{slow:.1}") } else { format!("{slow:.1} to {fast:.1}") };
+    let mut text = format!("    its front runs along the surface at {speeds} m/s, from {first:.6} to {last:.6} s\n");
+    for (name, material) in model.materials.iter().filter(|(name, _)| !model.bodies.contains(name)) {
+        text += &format!(
+            "    {name}: {}; c_p {:.1}, c_s {:.1}, c_R {:.1} m/s\n",
+            regime([slow, fast], material),
+            material.p_speed(),
+            material.s_speed(),
+            material.rayleigh_speed()
+        );
+    }
+    text
+}
+
+/// How a front of these speeds stands to the waves of a ground.
+fn regime([slow, fast]: [f64; 2], ground: &Material) -> String {
+    let one = |u: f64| match u {
+        u if u >= ground.p_speed() => "superseismic (no wave of it runs ahead of the front)",
+        u if u >= ground.s_speed() => "subseismic to P waves, which run ahead of the front, superseismic to S waves",
+        _ => "subseismic (P and S waves run ahead of the front)",
+    };
+    let near = |u: f64| (u / ground.rayleigh_speed() - 1.).abs() < 0.1;
+    let rayleigh = if near(slow) || near(fast) || (slow < ground.rayleigh_speed() && fast > ground.rayleigh_speed()) {
+        ", close to Rayleigh waves, which grow with it"
+    } else {
+        ""
+    };
+    match (one(fast), one(slow)) {
+        (first, last) if first == last => format!("{first}{rayleigh}"),
+        (first, last) => format!("{first}; where it is slowest {last}{rayleigh}"),
+    }
+}
+
+/// A history in words.
+pub fn law(pulse: &Pulse) -> String {
+    match pulse {
+        Pulse::Linear { peak, duration } => format!("linear from {peak} at t = 0 to zero at {duration} s"),
+        Pulse::Step { peak } => format!("step of {peak} at t = 0"),
+        Pulse::Ramp { peak, duration } => format!("ramp to {peak} at {duration} s"),
+        Pulse::HalfSine { peak, duration } => format!("half sine of {peak} until {duration} s"),
+        Pulse::Friedlander { peak, duration, decay, negative } => {
+            let negative =
+                negative.map_or(String::new(), |n| format!(", then down to -{} for {} s", n.peak, n.duration));
+            format!("Friedlander pulse from {peak} to zero at {duration} s, decay {decay:.4}{negative}")
+        }
+        Pulse::Table { times, values } => {
+            let largest = values.iter().fold(0f64, |m, v| if v.abs() > m.abs() { *v } else { m });
+            format!("table of {} times, largest value {largest}", times.len())
+        }
+        Pulse::Delayed { law: delayed, start, rise } => {
+            format!("{}, later by {start} s and with a rise of {rise} s", law(delayed))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// c_p = 620.1, c_s = 168.8, c_R = 160.4 m/s of the paper's first layer.
+    #[test]
+    fn fronts_are_named_by_the_waves_they_outrun() {
+        let layer = Material { young: 183e6, poisson: 0.46, density: 2200. };
+        let words = |slow, fast| regime([slow, fast], &layer);
+        assert!(words(621., 621.).starts_with("superseismic (no wave"));
+        assert!(words(620., 620.).starts_with("subseismic to P waves"));
+        assert!(words(169., 169.).starts_with("subseismic to P waves") && words(169., 169.).contains("Rayleigh"));
+        assert!(words(168., 168.).starts_with("subseismic (P and S"));
+        assert!(words(100., 100.).starts_with("subseismic (P and S") && !words(100., 100.).contains("Rayleigh"));
+        assert!(words(400., 900.).starts_with("superseismic") && words(400., 900.).contains("slowest subseismic to P"));
+    }
+}
