@@ -37,7 +37,10 @@ fn main() {
     // cargo adds --bench
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     // Meshes and results stay there, the meshes for the next time.
-    std::env::set_current_dir(env!("CARGO_TARGET_TMPDIR")).expect("cargo makes this folder");
+    let folder = concat!(env!("CARGO_TARGET_TMPDIR"), "/bench");
+    std::fs::create_dir_all(folder)
+        .and_then(|()| std::env::set_current_dir(folder))
+        .expect("target/ can be written to");
     let parts = PARTS.iter().filter(|(name, _)| wanted.is_empty() || wanted.iter().any(|w| name.contains(w.as_str())));
     let rows: Vec<Row> = parts.flat_map(|(_, rows)| rows()).collect();
     print!("{}", table::text(&rows));
