@@ -1,4 +1,4 @@
-// A cantilever, held at x = 0. Physical groups: beam, root, tip (point in the middle of the free end).
+// A beam, held where the case says. Physical groups: beam, root (x = 0), end (x = length), tip (point in the middle of the end).
 
 SetFactory("Built-in");
 
@@ -27,6 +27,7 @@ Transfinite Surface{:};
 Recombine Surface{:};
 Physical Surface("beam") = faces();
 Physical Curve("root") = left();
+Physical Curve("end") = right();
 Physical Point("tip") = q(1);
 Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1;

@@ -22,6 +22,14 @@ def interfaces(n):
                                "normal_stiffness": 1e18, "tangential_stiffness": 1e18} for i, xi in enumerate(x)}
 
 
+def without_zigzag(x, p):
+    """Joints from the axis outwards, each pressure with half of either neighbour's: what alternates from joint to joint, which
+    a joint with one point does not see, falls out. The axis is a plane of symmetry."""
+    order = np.argsort(x)
+    p = np.concatenate([p[order[:1]], p[order], [0]])
+    return x[order], (p[:-2] + 2 * p[1:-1] + p[2:]) / 4
+
+
 def page(book):
     b, p0 = exact()
     rows, curves, cells = [], [], []
@@ -30,10 +38,11 @@ def page(book):
         frame = book.run("hertz", geo={"n": n}, sets={"interfaces": interfaces(n)}, tag=f"n{n}").frame()
         x = np.array([frame.points[j].mean(axis=0)[0] for j in frame.joints])
         p = -frame.normal_traction
+        total = 2 * (p * WIDE / n).sum()
+        x, p = without_zigzag(x, p)
         inside = x < 0.9 * b
         slope, top = np.polyfit(x[inside] ** 2, p[inside] ** 2, 1)  # p^2 = p0^2 (1 - x^2/b^2)
         found = np.sqrt(-top / slope), np.sqrt(top)
-        total = 2 * (p * WIDE / n).sum()
         curves.append((n, x, p))
         cells.append([str(n), f"{WIDE / n / b:.3f}", f"{1e3 * found[0]:.5f}", f"{found[1] / 1e6:.3f}"])
     why = "0.5 % is the book's aim; the quick form has 24 joints in the half-width"
@@ -42,8 +51,8 @@ def page(book):
     rows.append(Row("sum of the pressures", FORCE / 1e6, total / 1e6, 1e-6, "MN/m", why="equilibrium, to the solver's tolerance"))
     n, x, p = curves[-1]
     law = p0 * np.sqrt(np.clip(1 - (x / b) ** 2, 0, None))
-    rows.append(Row("pressure along the contact, rms error over p0", 0, np.sqrt(((p - law) ** 2).mean()) / p0, 0.02,
-                    relative=False, why="the joint at the edge of contact is half in"))
+    rows.append(Row("pressure along the contact, rms error over p0", 0, np.sqrt(((p - law) ** 2).mean()) / p0, 0.01,
+                    relative=False, why="1 %: the joints at the edge of contact, where the law has an upright tangent"))
 
     def plot(axes):
         fine = np.linspace(0, WIDE, 500)
@@ -64,7 +73,9 @@ def page(book):
         tables=[("Refinement", ["joints", "length of a joint over b", "b [mm]", "p0 [MPa]"], cells)],
         notes="Both sides of a joint lie on each other in the mesh and an interface has one gap, so that the cylinder is a flat "
               "block and its profile x^2/2R stands in the gaps of as many interfaces as there are joints, as in Hertz' theory "
-              "itself. The block is 0.2 x 0.1 m, the rigid plane a strip 1e5 times as stiff. b and p0 are those of the straight "
+              "itself. The block is 0.2 x 0.1 m, the rigid plane a strip 1e5 times as stiff. The joint that the edge of contact "
+              "cuts sets off a zig-zag of pressure from joint to joint, up to 6 % of p0 next to the edge with 64 joints, which joints "
+              "with one point cannot resist; pressures are therefore means over three joints, (1, 2, 1) / 4. b and p0 are those of the straight "
               "line through p^2 over x^2 for x < 0.9 b.",
         code=["src/physics/joint.rs", "src/solve/contact.rs", "geo/verification/hertz.geo"],
     )

@@ -66,6 +66,8 @@ pub struct TimeGrid {
     pub step: f64,
     pub steps: usize,
     pub steps_per_frame: usize,
+    /// what joints may make of the largest stored energy, per time [1/s]
+    pub energy_budget: Option<f64>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -353,6 +355,7 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
         step,
         steps: whole("time.end", case.time.end.0, warnings),
         steps_per_frame: whole("output.every", case.frame_interval(), warnings),
+        energy_budget: case.time.energy_tolerance.map(|share| share / case.time.end.0),
     })
 }
 

@@ -41,10 +41,24 @@ pub struct Solution {
     pub displacement_test: f64,
 }
 
-/// No statuses were found that agree with their jumps; the joint points that kept changing.
+/// Why no step could be accepted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Unsettled {
-    pub points: Vec<usize>,
+pub enum Unsettled {
+    /// no statuses were found that agree with their jumps: the joint points that kept changing, and how all stood last
+    Statuses { changing: Vec<usize>, last: Vec<Status> },
+    /// the statuses stand, but the residual does not fall: what it stays at, and the joint point where it is largest
+    Residual { relative: f64, largest: Option<usize>, last: Vec<Status> },
+    /// numbers beyond floating point
+    Overflow(Place),
+}
+
+/// Where numbers first go beyond floating point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    JointPoint(usize),
+    Node(usize),
+    /// in the matrix of a step
+    Matrix,
 }
 
 pub struct Contact {
@@ -102,8 +116,7 @@ impl Contact {
             }
             let turns_in_a_circle = !settled && seen.contains(&statuses);
             if turns_in_a_circle || iterations == self.options.max_iterations {
-                let before = seen.last().unwrap_or(&statuses);
-                return Err(Unsettled { points: differing(before, &statuses) });
+                return Err(self.unsettled(problem, &residual, seen.last(), statuses));
             }
             if settled {
                 // The tangent was right and yet the step missed: corrections have worn the inverse.
@@ -119,6 +132,28 @@ impl Contact {
             seen.push(statuses);
         }
         unreachable!("the last iteration returns")
+    }
+
+    fn unsettled(
+        &self,
+        problem: &Problem,
+        residual: &Residual,
+        before: Option<&Vec<Status>>,
+        last: Vec<Status>,
+    ) -> Unsettled {
+        let places =
+            (0..residual.force.len()).filter_map(|i| Some((residual.force[i], problem.interface.point_of(i)?)));
+        if !residual.relative().is_finite() {
+            let place = places.clone().find(|(force, _)| !force.is_finite());
+            return Unsettled::Overflow(place.map_or(Place::Matrix, |(_, point)| Place::JointPoint(point)));
+        }
+        match before.map(|before| differing(before, &last)) {
+            Some(changing) if !changing.is_empty() => Unsettled::Statuses { changing, last },
+            _ => {
+                let largest = places.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+                Unsettled::Residual { relative: residual.relative(), largest: largest.map(|(_, point)| point), last }
+            }
+        }
     }
 
     /// D of every point for Newton's matrix.

@@ -92,8 +92,8 @@ impl Ledger {
         let share = self.now.contact / self.peak;
         (self.peak > 0. && share.abs() > SUSPICIOUS).then(|| {
             format!(
-                "joints that open and close within steps have {} energy, {:.1} % of the largest stored: take a smaller \
-                 time.step, damping, or time.hht",
+                "joints that open and close within steps have {} energy, {:.1} % of the largest stored: take \
+                 time.hht, time.energy_tolerance, damping, or a smaller time.step",
                 if share < 0. { "made" } else { "lost" },
                 100. * share.abs()
             )
@@ -106,6 +106,19 @@ impl Ledger {
     }
 }
 
+/// What the joints give in one step beyond what they stored and friction ate: -(r_n + r_n+1)'dj/2 - stored - friction [J].
+pub fn joint_gain(system: &System, old: &State, new: &State) -> f64 {
+    let dj: Vec<f64> = system.jumps(&new.q).iter().zip(system.jumps(&old.q)).map(|(n, o)| n - o).collect();
+    let work = mean_dot(&joint_force(system, old), &joint_force(system, new), &dj);
+    stored_in_joints(system, new) - stored_in_joints(system, old) + friction(system, old, new) - work
+}
+
+/// Kinetic + strain + joint energy of a state [J].
+pub fn mechanical(system: &System, state: &State) -> f64 {
+    let (now, _) = stored(system, state, &state.v);
+    now.kinetic + now.strain + now.joint
+}
+
 /// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store [J]; and w'Cw [W], w the mean of the old velocity and the new.
 fn stored(system: &System, state: &State, old_v: &[f64]) -> (Energies, f64) {
     let products = &system.products;
@@ -113,14 +126,10 @@ fn stored(system: &System, state: &State, old_v: &[f64]) -> (Energies, f64) {
         (0..old_v.len()).map(|i| [state.q[i], state.v[i], (state.v[i] + old_v[i]) / 2.]).collect();
     let [strain, kinetic, drained] =
         products.pattern.quadratic_forms([&products.stiffness, &products.mass, &products.damping], &motion);
-    let jumps = system.jumps(&state.q);
-    let joint = |(point, joint): (&super::interface::JointPoint, &super::interface::JointState)| {
-        point.area * point.law.stored_energy(system.interface.local(point, jumps), joint.slip)
-    };
     let stored = Energies {
         kinetic: kinetic / 2.,
         strain: strain / 2.,
-        joint: system.interface.points.iter().zip(&state.joints).map(joint).sum(),
+        joint: stored_in_joints(system, state),
         ..Energies::default()
     };
     (stored, drained)
@@ -130,6 +139,12 @@ fn stored(system: &System, state: &State, old_v: &[f64]) -> (Energies, f64) {
 fn drained_by(c: &CsMat<f64>, old: &[f64], new: &[f64]) -> f64 {
     let mean: Vec<f64> = new.iter().zip(old).map(|(n, o)| (n + o) / 2.).collect();
     dot(&mean, &multiply(c, &mean))
+}
+
+fn stored_in_joints(system: &System, state: &State) -> f64 {
+    let jumps = system.jumps(&state.q);
+    let points = system.interface.points.iter().zip(&state.joints);
+    points.map(|(p, joint)| p.area * p.law.stored_energy(system.interface.local(p, jumps), joint.slip)).sum()
 }
 
 /// tau times the growth of plastic slip, over the area.

@@ -129,6 +129,11 @@ impl Interface {
         self.entries(point).map(|(i, ..)| i)
     }
 
+    /// A point that sees jump component `place`, if any does.
+    pub fn point_of(&self, place: usize) -> Option<usize> {
+        self.points.iter().position(|point| self.places(point).any(|i| i == place))
+    }
+
     /// (place in j, axis, N) of every jump component a point sees.
     fn entries<'a>(&'a self, point: &'a JointPoint) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
         point

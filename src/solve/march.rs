@@ -1,13 +1,14 @@
 //! The march through time: equal steps, cut in half where the joints do not settle, always back on the grid.
 
-use super::contact::Unsettled;
+use super::contact::{Place, Unsettled};
+use super::energy::{joint_gain, mechanical};
 use super::step::{Scheme, Step, Stepper};
 use super::system::{State, System};
 use crate::model::case::Newton;
 use crate::sparse::{NotPositiveDefinite, Symbolic};
 
 /// A step may be halved this often.
-const MAX_CUTS: usize = 5;
+pub const MAX_CUTS: usize = 5;
 
 pub struct March<'a> {
     system: &'a System,
@@ -17,6 +18,24 @@ pub struct March<'a> {
     /// for dt, dt/2, dt/4, ...; each made when first needed
     levels: Vec<Stepper>,
     dt: f64,
+    budget: Option<Budget>,
+}
+
+/// How much energy joints that open and close within steps may make.
+struct Budget {
+    /// of the largest stored energy, per time [1/s]
+    rate: f64,
+    /// the largest stored energy so far [J]
+    peak: f64,
+}
+
+impl Budget {
+    /// Newmark's force within a step is a straight line, a joint's is not where it opens or closes: the step then gains
+    /// about kappa v^2 dt^2, a quarter of it after halving the step.
+    fn allows(&mut self, system: &System, old: &State, new: &State) -> bool {
+        self.peak = self.peak.max(mechanical(system, new));
+        joint_gain(system, old, new) <= self.rate * (new.time - old.time) * self.peak
+    }
 }
 
 impl<'a> March<'a> {
@@ -28,7 +47,12 @@ impl<'a> March<'a> {
         options: Newton,
     ) -> Result<March<'a>, NotPositiveDefinite> {
         let whole = Stepper::new(system, symbolic, scheme, dt, options)?;
-        Ok(March { system, symbolic, scheme, options, levels: vec![whole], dt })
+        Ok(March { system, symbolic, scheme, options, levels: vec![whole], dt, budget: None })
+    }
+
+    /// Cuts steps also where joints make more energy than `rate` [1/s] times the step times the largest stored energy.
+    pub fn with_energy_budget(self, rate: Option<f64>) -> March<'a> {
+        March { budget: rate.map(|rate| Budget { rate, peak: 0. }), ..self }
     }
 
     /// The state one whole step later, with the states between where it had to be cut.
@@ -48,14 +72,15 @@ impl<'a> March<'a> {
             let dt = self.dt / f64::powi(2., level as i32);
             let shorter = Stepper::new(self.system, self.symbolic, self.scheme, dt, self.options)
                 // it adds mass to a matrix that was positive definite: only a number too large can spoil it
-                .map_err(|_| Unsettled { points: vec![] })?;
+                .map_err(|_| Unsettled::Overflow(Place::Matrix))?;
             self.levels.push(shorter);
         }
-        let finite = |step: Step| if step.state.is_finite() { Ok(step) } else { Err(Unsettled { points: vec![] }) };
-        match self.levels[level].step(self.system, old).and_then(finite) {
-            Ok(step) => Ok(vec![step]),
-            Err(unsettled) if level == MAX_CUTS => Err(unsettled),
-            Err(_) => {
+        let system = self.system;
+        let tried = self.levels[level].step(system, old).and_then(|step| finite(system, step));
+        match tried {
+            tried if level == MAX_CUTS => Ok(vec![tried?]),
+            Ok(step) if self.budget.as_mut().is_none_or(|b| b.allows(system, old, &step.state)) => Ok(vec![step]),
+            _ => {
                 let mut steps = self.advance_at(level + 1, old)?;
                 let half_way = &steps.last().expect("an advance has at least one step").state;
                 let rest = self.advance_at(level + 1, &half_way.clone())?;
@@ -64,4 +89,13 @@ impl<'a> March<'a> {
             }
         }
     }
+}
+
+fn finite(system: &System, step: Step) -> Result<Step, Unsettled> {
+    if step.state.is_finite() {
+        return Ok(step);
+    }
+    let State { q, v, a, .. } = &step.state;
+    let spoilt = |x: &Vec<f64>| system.unknowns.at_nodes(x).iter().position(|u| !u.iter().all(|u| u.is_finite()));
+    Err(Unsettled::Overflow([q, v, a].into_iter().find_map(spoilt).map_or(Place::Matrix, Place::Node)))
 }

@@ -14,6 +14,7 @@ mod recorder;
 pub mod run;
 pub mod screen;
 pub mod script;
+mod unsettled;
 
 /// `coralpipe schema`: the JSON Schema of the case file.
 pub fn schema() -> String {

@@ -4,11 +4,11 @@ use super::mesh::{self, Meshed};
 use super::prepare::Prepared;
 use super::recorder::{Ending, Recorder};
 use super::screen::{Screen, tell};
+use super::unsettled;
 use crate::model::case::{Analysis, Case};
 use crate::model::resolve::{Initial, Model};
 use crate::results::folder::Folder;
 use crate::results::summary::{Inputs, Timing};
-use crate::solve::contact::Unsettled;
 use crate::solve::march::March;
 use crate::solve::start;
 use crate::solve::step::{Scheme, Stepper};
@@ -117,7 +117,7 @@ fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
         Analysis::Static => {
             let rest = under_gravity(prepared)?;
             let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
-            let start = at_once.step(system, &rest).map_err(|unsettled| no_rest(prepared, &unsettled))?;
+            let start = at_once.step(system, &rest).map_err(|why| unsettled::at_start(prepared, &why))?;
             (Scheme::Static, start.state, State::at_rest(system).q)
         }
         Analysis::Dynamic => {
@@ -135,12 +135,12 @@ fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
         ));
     }
     let march = March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?;
-    Ok((state, origin, march))
+    Ok((state, origin, march.with_energy_budget(model.time.energy_budget)))
 }
 
 fn under_gravity(prepared: &Prepared) -> Result<State> {
     let found = start::under_gravity(&prepared.system, &prepared.symbolic, prepared.model.newton);
-    found.map_err(not_held)?.map_err(|unsettled| no_rest(prepared, &unsettled))
+    found.map_err(not_held)?.map_err(|why| unsettled::at_start(prepared, &why))
 }
 
 /// Statics without inertia: the only way to be singular is not to be held.
@@ -149,10 +149,6 @@ fn not_held(_: NotPositiveDefinite) -> Error {
         "nothing holds the mesh, or a part of it, against a steady load (viscous boundaries do not): add a support in x \
          and in y",
     )
-}
-
-fn no_rest(prepared: &Prepared, unsettled: &Unsettled) -> Error {
-    Error::NoConvergence(format!("no equilibrium was found at t = 0: {}", restless(prepared, unsettled)))
 }
 
 fn march_to_end(
@@ -172,46 +168,14 @@ fn march_to_end(
         }
         state = match march.advance(&state) {
             Ok(steps) => recorder.record(number, state, steps)?,
-            Err(unsettled) => {
-                let sentence = unsettled_joints(prepared, &unsettled, state.time, number);
-                return Ok((Ending::NoConvergence, Some(Error::NoConvergence(sentence))));
+            Err(why) => {
+                let error = unsettled::in_step(prepared, &why, state.time, number);
+                return Ok((Ending::NoConvergence, Some(error)));
             }
         };
         progress.step(number);
     }
     Ok((Ending::Done, None))
-}
-
-/// Names the joints that keep changing their status.
-fn unsettled_joints(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: usize) -> String {
-    format!(
-        "no convergence in step {number} after t = {time} s, even with the time step cut by 32: {}; try a smaller time.step, \
-         a larger interface thickness, or damping",
-        restless(prepared, unsettled)
-    )
-}
-
-fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
-    let model = &prepared.model;
-    if unsettled.points.is_empty() {
-        return format!(
-            "no joint changes its status, but the residual stays above newton.tolerance = {:e}, or numbers grow too large \
-             for a computer",
-            model.newton.tolerance
-        );
-    }
-    let place = |&i: &usize| {
-        let point = &prepared.system.interface.points[i];
-        let [x, y] = point.at;
-        format!("{} at ({x:.4}, {y:.4}) m", model.seams[model.joints[point.joint].seam].curve)
-    };
-    // Neighbouring joints have a point each at their common corner.
-    let mut places: Vec<String> = unsettled.points.iter().map(place).collect();
-    places.sort_unstable();
-    places.dedup();
-    let and_more = if places.len() > 6 { format!(" and {} more", places.len() - 6) } else { String::new() };
-    places.truncate(6);
-    format!("joint points keep changing between open, sticking and slipping: {}{and_more}", places.join(", "))
 }
 
 fn with_what_is_left(error: Error, folder: &Folder) -> Error {

@@ -66,6 +66,11 @@ pub fn optional_decay<'de, D: Deserializer<'de>>(input: D) -> Result<Option<f64>
     Option::<f64>::deserialize(input)?.map(|decay| check(decay, decay > -1.0, must)).transpose()
 }
 
+pub fn optional_tolerance<'de, D: Deserializer<'de>>(input: D) -> Result<Option<f64>, D::Error> {
+    let must = "greater than 0 and less than 1";
+    Option::<f64>::deserialize(input)?.map(|share| check(share, 0.0 < share && share < 1.0, must)).transpose()
+}
+
 pub fn at_least_one<'de, D: Deserializer<'de>>(input: D) -> Result<usize, D::Error> {
     let count = usize::deserialize(input)?;
     check(count, count >= 1, "at least 1")

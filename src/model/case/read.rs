@@ -67,6 +67,11 @@ fn validate(case: &Case) -> std::result::Result<(), String> {
     if time.hht != 0.0 && time.newmark != Newmark::default() {
         return Err("time.hht: it sets alpha and delta itself; leave time.newmark out, or hht".into());
     }
+    if case.analysis == Analysis::Static && time.energy_tolerance.is_some() {
+        return Err(
+            "time.energy_tolerance: a static calculation has no time in which joints chatter; leave it out".into()
+        );
+    }
     if case.analysis == Analysis::Static && !case.initial.is_empty() {
         return Err("initial: a static calculation has no motion to start with; leave \"initial\" out".into());
     }

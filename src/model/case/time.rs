@@ -22,6 +22,9 @@ pub struct TimeStepping {
     /// Numerical damping alpha of Hilber, Hughes and Taylor [-], from -1/3 to 0; sets alpha and delta of Newmark's method. Default: 0, none.
     #[serde(default, deserialize_with = "range::hht")]
     pub hht: f64,
+    /// Steps are cut in half, up to five times, so that joints which open and close within them make no more than this share of the largest stored energy over the run [-], greater than 0 and less than 1. Default: none, no step is cut for it.
+    #[serde(default, deserialize_with = "range::optional_tolerance")]
+    pub energy_tolerance: Option<f64>,
     /// Acceleration at t = 0: "equilibrium" or "rest". Default: "equilibrium".
     #[serde(default)]
     pub start: Start,

@@ -1,0 +1,128 @@
+//! A step that could not be solved, in words: what kept it from settling, where, and what helps in that case.
+
+use super::prepare::Prepared;
+use crate::Error;
+use crate::model::case::Analysis;
+use crate::physics::joint::Status;
+use crate::solve::contact::{Place, Unsettled};
+use crate::solve::march::MAX_CUTS;
+
+/// Relative residual near which a computer's 16 digits end.
+const LAST_DIGITS: f64 = 1e-9;
+
+/// The error of a run that finds no equilibrium at t = 0.
+pub fn at_start(prepared: &Prepared, unsettled: &Unsettled) -> Error {
+    let (cause, advice) = still(prepared, unsettled);
+    Error::NoConvergence(format!("no equilibrium was found at t = 0: {cause}; {advice}"))
+}
+
+/// The error of a run that cannot go on from `time` [s] with step `number`.
+pub fn in_step(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: usize) -> Error {
+    let what = match prepared.model.analysis {
+        Analysis::Static => "no equilibrium was found",
+        Analysis::Dynamic => "no convergence",
+    };
+    let (cause, advice) = match prepared.model.analysis {
+        Analysis::Static => still(prepared, unsettled),
+        Analysis::Dynamic => (
+            restless(prepared, unsettled),
+            advice(unsettled, "try a smaller time.step, a larger interface thickness, or damping"),
+        ),
+    };
+    let cuts = 1 << MAX_CUTS;
+    Error::NoConvergence(format!(
+        "{what} in step {number} after t = {time} s, even with the time step cut by {cuts}: {cause}; {advice}"
+    ))
+}
+
+/// Cause and advice without inertia: what friction does not hold has no equilibrium.
+fn still(prepared: &Prepared, unsettled: &Unsettled) -> (String, String) {
+    let moving = moving_bodies(prepared, unsettled);
+    if moving.is_empty() {
+        let fallback = "try smaller steps of the load (a table that grows from 0, a smaller time.step), or more \
+                        newton.max_iterations";
+        return (restless(prepared, unsettled), advice(unsettled, fallback));
+    }
+    let advice = "give it more friction, a support or a smaller load, or let it move with analysis = \"dynamic\"";
+    (moving.join("; "), advice.into())
+}
+
+/// A sentence for every body whose joints all slip or stand open.
+fn moving_bodies(prepared: &Prepared, unsettled: &Unsettled) -> Vec<String> {
+    let (Unsettled::Statuses { last, .. } | Unsettled::Residual { last, .. }) = unsettled else { return vec![] };
+    let model = &prepared.model;
+    let sentence = |body: &String| {
+        let of_body =
+            |&i: &usize| model.seams[model.joints[prepared.system.interface.points[i].joint].seam].body == *body;
+        let points: Vec<usize> = (0..last.len()).filter(of_body).collect();
+        let slipping: Vec<usize> = points.iter().copied().filter(|&i| last[i].is_slipping()).collect();
+        let held = points.iter().any(|&i| last[i] == Status::Stick);
+        match (held || points.is_empty(), slipping.is_empty()) {
+            (true, _) => None,
+            (false, true) => Some(format!(
+                "nothing holds body {body}, which has come off: its joints are open everywhere ({})",
+                places(prepared, &points)
+            )),
+            (false, false) => Some(format!(
+                "friction does not hold body {body}, which slides: no joint of it sticks, and these slip: {}",
+                places(prepared, &slipping)
+            )),
+        }
+    };
+    model.bodies.iter().filter_map(sentence).collect()
+}
+
+fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
+    let tolerance = prepared.model.newton.tolerance;
+    match unsettled {
+        Unsettled::Statuses { changing, .. } => {
+            let places = places(prepared, changing);
+            format!("joint points keep changing between open, sticking and slipping: {places}")
+        }
+        Unsettled::Residual { relative, largest, .. } => {
+            let at = largest.map_or(String::new(), |i| format!(", most of it near {}", places(prepared, &[i])));
+            format!(
+                "no joint changes its status, but the residual stays at {relative:.1e} of the largest force{at}, above \
+                 newton.tolerance = {tolerance:e}"
+            )
+        }
+        Unsettled::Overflow(place) => {
+            let at = match *place {
+                Place::JointPoint(i) => format!(", first at {}", places(prepared, &[i])),
+                Place::Node(node) => {
+                    let [x, y] = prepared.model.mesh.points[node];
+                    format!(", first at the node at ({x:.4}, {y:.4}) m")
+                }
+                Place::Matrix => ", in the matrix of the shortened step".into(),
+            };
+            format!("numbers grow too large for a computer{at}")
+        }
+    }
+}
+
+/// What helps against this cause; `otherwise` against statuses that change.
+fn advice(unsettled: &Unsettled, otherwise: &str) -> String {
+    match unsettled {
+        Unsettled::Overflow(_) => "check loads, densities, stiffnesses and steps".into(),
+        Unsettled::Residual { relative, .. } if *relative < LAST_DIGITS => {
+            "a computer's 16 digits allow no less here: take a larger newton.tolerance".into()
+        }
+        _ => otherwise.into(),
+    }
+}
+
+/// Up to six places of joint points; neighbouring joints have a point each at their common corner.
+fn places(prepared: &Prepared, points: &[usize]) -> String {
+    let model = &prepared.model;
+    let place = |&i: &usize| {
+        let point = &prepared.system.interface.points[i];
+        let [x, y] = point.at;
+        format!("{} at ({x:.4}, {y:.4}) m", model.seams[model.joints[point.joint].seam].curve)
+    };
+    let mut places: Vec<String> = points.iter().map(place).collect();
+    places.sort_unstable();
+    places.dedup();
+    let and_more = if places.len() > 6 { format!(" and {} more", places.len() - 6) } else { String::new() };
+    places.truncate(6);
+    places.join(", ") + &and_more
+}
