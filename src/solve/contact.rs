@@ -141,18 +141,16 @@ impl Contact {
         before: Option<&Vec<Status>>,
         last: Vec<Status>,
     ) -> Unsettled {
-        let places =
-            (0..residual.force.len()).filter_map(|i| Some((residual.force[i], problem.interface.point_of(i)?)));
+        let forces =
+            (0..residual.force.len()).filter_map(|i| Some((residual.force[i].abs(), problem.interface.point_of(i)?)));
+        // what is not a number is the largest of all
+        let largest = forces.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point);
         if !residual.relative().is_finite() {
-            let place = places.clone().find(|(force, _)| !force.is_finite());
-            return Unsettled::Overflow(place.map_or(Place::Matrix, |(_, point)| Place::JointPoint(point)));
+            return Unsettled::Overflow(largest.map_or(Place::Matrix, Place::JointPoint));
         }
         match before.map(|before| differing(before, &last)) {
             Some(changing) if !changing.is_empty() => Unsettled::Statuses { changing, last },
-            _ => {
-                let largest = places.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-                Unsettled::Residual { relative: residual.relative(), largest: largest.map(|(_, point)| point), last }
-            }
+            _ => Unsettled::Residual { relative: residual.relative(), largest, last },
         }
     }
 
