@@ -12,6 +12,21 @@ pub struct Border {
     pub nodes: Vec<usize>,
 }
 
+impl Border {
+    /// Unit vector from its first corner to its second.
+    pub fn tangent(&self, mesh: &Mesh) -> [f64; 2] {
+        let [a, b] = [0, 1].map(|i| mesh.points[self.nodes[i]]);
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
+    }
+
+    /// Nearer to the vertical than to the horizontal.
+    pub fn is_upright(&self, mesh: &Mesh) -> bool {
+        let [tx, ty] = self.tangent(mesh);
+        ty.abs() > tx.abs()
+    }
+}
+
 /// Every side of every face with that face, running anticlockwise, by its corners; twice where two faces share it.
 pub type Sides = HashMap<(usize, usize), Vec<(usize, Vec<usize>)>>;
 

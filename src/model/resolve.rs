@@ -1,7 +1,9 @@
 //! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
 
-use super::boundary::{Border, border, solid_sides};
+use super::absorbing::{Absorber, absorbers};
+use super::boundary::{Border, Sides, border, solid_sides};
 use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
+use super::free_field::{FreeField, free_fields};
 use super::mesh::Mesh;
 use super::probes::{NodeProbe, probes};
 use super::quality;
@@ -35,8 +37,10 @@ pub struct Model {
     pub laws: Vec<(JointLaw, Integration)>,
     /// for each node and axis
     pub fixed: Vec<[bool; 2]>,
-    /// viscous lines, each with the material behind it
-    pub dashpots: Vec<(Border, Material)>,
+    /// lines of dashpots
+    pub absorbers: Vec<Absorber>,
+    /// sides with the ground beyond them
+    pub free_fields: Vec<FreeField>,
     pub loads: Vec<Load>,
     pub probes: Vec<NodeProbe>,
     pub damping: Option<Damping>,
@@ -114,10 +118,14 @@ impl Model {
             .map(|joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]))
             .collect::<Result<_>>()?;
         warnings.extend(unused_groups(case, &mesh));
-        Ok(Model {
+        let sides = solid_sides(&mesh);
+        let loads = loads(case, &mesh, &sides)?;
+        let material = |face: usize| materials[material_of[face].expect("every face has a material by now")].1;
+        let model = Model {
             fixed: supports(case, &mesh)?,
-            dashpots: dashpots(case, &mesh, &materials, &material_of)?,
-            loads: loads(case, &mesh)?,
+            absorbers: absorbers(case, &mesh, &sides, material, &loads)?,
+            free_fields: vec![],
+            loads,
             probes: probes(case, &mesh, &mut warnings)?,
             pairs: opened.pairs,
             joints: opened.joints,
@@ -138,7 +146,11 @@ impl Model {
             laws,
             mesh,
             warnings,
-        })
+        };
+        match case.analysis {
+            Analysis::Static => Ok(model.held()),
+            Analysis::Dynamic => Ok(Model { free_fields: free_fields(case, &model)?, ..model }),
+        }
     }
 
     /// Every face with its material.
@@ -273,12 +285,11 @@ fn initial(case: &Case, mesh: &Mesh) -> Result<Initial> {
     Ok(initial)
 }
 
-fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
-    let sides = solid_sides(mesh);
+fn loads(case: &Case, mesh: &Mesh, sides: &Sides) -> Result<Vec<Load>> {
     let load = |(name, load): (&str, &case::Load)| {
         let group = |dimension| mesh.group_of(name, dimension, "load");
         let lines = || -> Result<Vec<Border>> {
-            Ok(border(mesh, group(1)?, &sides)?.into_iter().map(|(line, _)| line).collect())
+            Ok(border(mesh, group(1)?, sides)?.into_iter().map(|(line, _)| line).collect())
         };
         let (target, pulse) = match load {
             case::Load::Pressure(case::Pressure::Sweeping(front, clock)) => {
@@ -305,30 +316,6 @@ fn loads(case: &Case, mesh: &Mesh) -> Result<Vec<Load>> {
         Ok(Load { group: name.to_string(), pulse: pulse.clone(), target, sweep: None })
     };
     case.loads.iter().map(load).collect()
-}
-
-/// Viscous lines with the material behind them; a support there would hold what the dashpots should let move.
-fn dashpots(
-    case: &Case,
-    mesh: &Mesh,
-    materials: &[(String, Material)],
-    material_of: &[Option<usize>],
-) -> Result<Vec<(Border, Material)>> {
-    let sides = solid_sides(mesh);
-    let mut dashpots = Vec::new();
-    for name in case.boundaries.keys() {
-        if case.supports.contains_key(name) {
-            return Err(Error::input(format!(
-                "\"{name}\" stands in both boundaries and supports: a viscous curve cannot be held; take it out of one"
-            )));
-        }
-        let group = mesh.group_of(name, 1, "boundary")?;
-        for (line, face) in border(mesh, group, &sides)? {
-            let material = material_of[face].expect("every face has a material by now");
-            dashpots.push((line, materials[material].1));
-        }
-    }
-    Ok(dashpots)
 }
 
 /// More steps than any machine has time for.

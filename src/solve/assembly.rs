@@ -1,6 +1,7 @@
 //! From elements to the matrices and load vectors of the unknowns: K = sum T' k T.
 
 use super::unknowns::Unknowns;
+use crate::model::absorbing::Absorber;
 use crate::model::boundary::Border;
 use crate::model::case::{Mass, Quad4};
 use crate::model::resolve::{Load, Model, Target};
@@ -131,10 +132,10 @@ fn gathered(unknowns: &Unknowns, forces: &[NodalForces]) -> Vec<f64> {
     f
 }
 
-/// C of the viscous lines: integral of N' rho (c_p n n' + c_s s s') N ds, added on the pattern of `zeros` [N s/m].
+/// C of the absorbing lines: integral of N' rho (c_p n n' + c_s s s') N ds, added on the pattern of `zeros` [N s/m].
 pub fn dashpots(model: &Model, unknowns: &Unknowns, zeros: CsMat<f64>) -> CsMat<f64> {
     let mut c = zeros;
-    for (line, material) in &model.dashpots {
+    for Absorber { line, material, .. } in &model.absorbers {
         let impedances = [material.density * material.p_speed(), material.density * material.s_speed()];
         for (a, &node_a) in line.nodes.iter().enumerate() {
             for (b, &node_b) in line.nodes.iter().enumerate() {
@@ -154,7 +155,7 @@ pub fn dashpots(model: &Model, unknowns: &Unknowns, zeros: CsMat<f64>) -> CsMat<
 }
 
 /// Integral of N_a N_b (Z_p n n' + Z_s s s') ds over a line [N s/m].
-fn dashpot_block(at: &[[f64; 2]], shape: Shape, [z_p, z_s]: [f64; 2], a: usize, b: usize) -> [[f64; 2]; 2] {
+pub fn dashpot_block(at: &[[f64; 2]], shape: Shape, [z_p, z_s]: [f64; 2], a: usize, b: usize) -> [[f64; 2]; 2] {
     let mut block = [[0.; 2]; 2];
     for (r, weight) in element::gauss_3() {
         let functions = shape.functions([r, 0.]);
@@ -171,7 +172,7 @@ fn dashpot_block(at: &[[f64; 2]], shape: Shape, [z_p, z_s]: [f64; 2], a: usize, 
     block
 }
 
-fn corners(model: &Model, nodes: &[usize]) -> Vec<[f64; 2]> {
+pub fn corners(model: &Model, nodes: &[usize]) -> Vec<[f64; 2]> {
     nodes.iter().map(|&n| model.mesh.points[n]).collect()
 }
 

@@ -1,4 +1,5 @@
-//! The energy ledger: work of loads = kinetic + strain + joint-elastic + damping + boundary + friction + contact + residual.
+//! The energy ledger: work of loads and of the free field = kinetic + strain + joint-elastic + damping + boundary + friction
+//! + contact + residual.
 //!
 //! For the average acceleration the equation of motion at both ends of a step gives, exactly,
 //! (R_n + R_n+1)'du/2 = change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints'
@@ -7,7 +8,7 @@
 //! The residual is round-off; with other Newmark parameters or HHT it is their numerical damping, and where the case
 //! starts with a = 0 it holds the first imbalance.
 
-use super::system::{State, System};
+use super::system::{Rayleigh, State, System};
 use crate::sparse::multiply;
 use crate::sparse::vector::dot;
 use sprs::CsMat;
@@ -16,11 +17,13 @@ use sprs::CsMat;
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Energies {
     pub work: f64,
+    /// work that the ground beyond free-field sides did on the model
+    pub free_field: f64,
     pub kinetic: f64,
     pub strain: f64,
     pub joint: f64,
     pub damping: f64,
-    /// what left through viscous boundaries
+    /// what left through the dashpots of viscous and free-field boundaries
     pub boundary: f64,
     pub friction: f64,
     pub contact: f64,
@@ -37,8 +40,9 @@ pub struct Ledger {
     pub peak: f64,
     /// the largest |residual| so far
     worst: f64,
-    /// forces at the last state: loads and joints
+    /// forces at the last state: loads, free field and joints
     load: Vec<f64>,
+    free_field: Vec<(usize, f64)>,
     joint_force: Vec<f64>,
 }
 
@@ -50,6 +54,7 @@ impl Ledger {
             peak: now.kinetic + now.strain + now.joint,
             worst: 0.,
             load: system.load(state.time),
+            free_field: free_field(system, state),
             joint_force: joint_force(system, state),
         }
     }
@@ -58,30 +63,34 @@ impl Ledger {
     pub fn after(&self, system: &System, old: &State, new: &State) -> Ledger {
         let dt = new.time - old.time;
         let load = system.load(new.time);
+        let free_field = free_field(system, new);
         let joint_force = joint_force(system, new);
         let du: Vec<f64> = new.q.iter().zip(&old.q).map(|(n, o)| n - o).collect();
 
         let work = mean_dot(&self.load, &load, &du);
         let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
         let (stored, drained) = stored(system, new, &old.v);
-        let boundary = system.dashpots.as_ref().map_or(0., |c| dt * drained_by(c, &old.v, &new.v));
-        let damping = dt * drained - boundary;
+        let dashpots = system.dashpots.as_ref().map_or(0., |c| dt * drained_by(c, &old.v, &new.v));
+        let damping = dt * drained - dashpots;
+        let beyond = outside(system, new).iter().sum::<f64>() - outside(system, old).iter().sum::<f64>();
         let friction = friction(system, old, new);
         let mut now = Energies {
             work: self.now.work + work,
+            free_field: self.now.free_field + side_work(&self.free_field, &free_field, &du),
             damping: self.now.damping + damping,
-            boundary: self.now.boundary + boundary,
+            boundary: self.now.boundary + dashpots + beyond,
             friction: self.now.friction + friction,
             contact: self.now.contact + joint_work - (stored.joint - self.now.joint) - friction,
             ..stored
         };
-        now.residual =
-            now.work - (now.kinetic + now.strain + now.joint + now.damping + now.boundary + now.friction + now.contact);
+        now.residual = now.work + now.free_field
+            - (now.kinetic + now.strain + now.joint + now.damping + now.boundary + now.friction + now.contact);
         Ledger {
             peak: self.peak.max(now.kinetic + now.strain + now.joint),
             worst: self.worst.max(now.residual.abs()),
             now,
             load,
+            free_field,
             joint_force,
         }
     }
@@ -119,16 +128,18 @@ pub fn mechanical(system: &System, state: &State) -> f64 {
     now.kinetic + now.strain + now.joint
 }
 
-/// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store [J]; and w'Cw [W], w the mean of the old velocity and the new.
+/// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store [J], without the boundaries' shares of M and K; and w'Cw [W],
+/// w the mean of the old velocity and the new.
 fn stored(system: &System, state: &State, old_v: &[f64]) -> (Energies, f64) {
     let products = &system.products;
     let motion: Vec<[f64; 3]> =
         (0..old_v.len()).map(|i| [state.q[i], state.v[i], (state.v[i] + old_v[i]) / 2.]).collect();
     let [strain, kinetic, drained] =
         products.pattern.quadratic_forms([&products.stiffness, &products.mass, &products.damping], &motion);
+    let [beyond_v, beyond_q] = outside(system, state);
     let stored = Energies {
-        kinetic: kinetic / 2.,
-        strain: strain / 2.,
+        kinetic: kinetic / 2. - beyond_v,
+        strain: strain / 2. - beyond_q,
         joint: stored_in_joints(system, state),
         ..Energies::default()
     };
@@ -147,6 +158,18 @@ fn stored_in_joints(system: &System, state: &State) -> f64 {
     points.map(|(p, joint)| p.area * p.law.stored_energy(system.interface.local(p, jumps), joint.slip)).sum()
 }
 
+/// v'(beta D / 2)v / 2 and u'(alpha D / 2)u / 2: the ground beyond the dashpots D holds them, so they have left.
+fn outside(system: &System, state: &State) -> [f64; 2] {
+    let Rayleigh { alpha, beta } = system.rayleigh;
+    let Some(dashpots) = &system.dashpots else { return [0.; 2] };
+    [(beta, &state.v), (alpha, &state.q)].map(|(factor, x)| factor / 4. * dot(x, &multiply(dashpots, x)))
+}
+
+fn free_field(system: &System, state: &State) -> Vec<(usize, f64)> {
+    let inertia = system.free_field_inertia(&state.free_field);
+    system.free_field_force(&state.free_field).into_iter().chain(inertia).collect()
+}
+
 /// tau times the growth of plastic slip, over the area.
 fn friction(system: &System, old: &State, new: &State) -> f64 {
     let joints = old.joints.iter().zip(&new.joints).zip(&system.interface.points);
@@ -155,6 +178,11 @@ fn friction(system: &System, old: &State, new: &State) -> f64 {
 
 fn joint_force(system: &System, state: &State) -> Vec<f64> {
     system.interface.forces(state.joints.iter().map(|j| j.traction))
+}
+
+/// The forces at both times act on the same unknowns.
+fn side_work(old: &[(usize, f64)], new: &[(usize, f64)], x: &[f64]) -> f64 {
+    old.iter().zip(new).map(|((_, o), (i, n))| (o + n) / 2. * x[*i]).sum()
 }
 
 fn mean_dot(a: &[f64], b: &[f64], x: &[f64]) -> f64 {

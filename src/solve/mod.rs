@@ -4,6 +4,7 @@ pub mod assembly;
 pub mod condensed;
 pub mod contact;
 pub mod energy;
+pub mod free_field;
 pub mod interface;
 mod inverse;
 pub mod march;

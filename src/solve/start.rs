@@ -5,7 +5,7 @@ use super::contact::Unsettled;
 use super::interface::JointState;
 use super::system::{State, System};
 use crate::model::case::{Newton, Start};
-use crate::sparse::vector::add;
+use crate::sparse::vector::{add, add_at};
 use crate::sparse::{NotPositiveDefinite, Symbolic, multiply};
 
 /// Gravity may be put on in this many parts.
@@ -42,7 +42,24 @@ pub fn under_gravity(
     Ok(found)
 }
 
-/// Adds displacement and velocity of the nodes [m], [m/s]; joints answer to the displaced state.
+/// The static state of the `held` system in the unknowns of the one that is let go, and the reactions
+/// K u + r(j) - gravity [N] of what only held the former: they go on as forces.
+pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f64>) {
+    let q = system.unknowns.from_nodes(&held.unknowns.at_nodes(&state.q));
+    let mut unbalanced = multiply(&system.stiffness, &q);
+    add(&mut unbalanced, -1., &system.gravity);
+    let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
+    add(&mut unbalanced[system.unknowns.first_jump..], 1., &joint_forces);
+    // Elsewhere it is what Newton's tolerance left.
+    let mut reactions = vec![0.; q.len()];
+    for i in system.unknowns.freed_from(&held.unknowns) {
+        reactions[i] = unbalanced[i];
+    }
+    (State { q, joints: state.joints.clone(), ..State::at_rest(system) }, reactions)
+}
+
+/// Adds displacement and velocity of the nodes [m], [m/s]; joints answer to the displaced state, columns beyond the sides
+/// take part.
 pub fn with_motion(system: &System, state: State, displacement: &[[f64; 2]], velocity: &[[f64; 2]]) -> State {
     let add = |x: &[f64], nodal: &[[f64; 2]]| -> Vec<f64> {
         x.iter().zip(system.unknowns.from_nodes(nodal)).map(|(x, n)| x + n).collect()
@@ -53,7 +70,10 @@ pub fn with_motion(system: &System, state: State, displacement: &[[f64; 2]], vel
     let joints = points
         .map(|(point, old)| JointState::from(&point.law.respond(system.interface.local(point, jumps), old.slip)))
         .collect();
-    State { v: add(&state.v, velocity), joints, q, ..state }
+    let columns = system.columns.iter().zip(state.free_field);
+    let free_field =
+        columns.map(|(c, state)| with_motion(&c.system, state, &c.own(displacement), &c.own(velocity))).collect();
+    State { time: state.time, v: add(&state.v, velocity), a: state.a, joints, q, free_field }
 }
 
 /// M a = f(0) - C v - K u - r(j), or a = 0: a blast has p(0) != 0.
@@ -66,12 +86,17 @@ pub fn with_acceleration(
     if start == Start::Rest {
         return Ok(state);
     }
+    let columns = system.columns.iter().zip(state.free_field);
+    let free_field = columns.map(|(c, state)| with_acceleration(&c.system, &c.symbolic, state, start));
+    let free_field = free_field.collect::<Result<Vec<_>, _>>()?;
     let mut a = system.load(0.);
+    add_at(&mut a, 1., &system.free_field_force(&free_field));
+    add_at(&mut a, 1., &system.free_field_inertia(&free_field));
     for (matrix, x) in [(&system.damping, &state.v), (&system.stiffness, &state.q)] {
         add(&mut a, -1., &multiply(matrix, x));
     }
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
-    a[system.unknowns.first_jump..].iter_mut().zip(joint_forces).for_each(|(a, r)| *a -= r);
+    add(&mut a[system.unknowns.first_jump..], -1., &joint_forces);
     symbolic.factor(&system.mass)?.solve(&mut a);
-    Ok(State { a, ..state })
+    Ok(State { a, free_field, ..state })
 }

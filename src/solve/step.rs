@@ -5,10 +5,11 @@
 
 use super::condensed::{Condensed, Reference};
 use super::contact::{JointDamping, Unsettled};
+use super::free_field::Column;
 use super::newmark::Constants;
 use super::system::{Products, State, System, combine};
 use crate::model::case::{Integrator, Newton};
-use crate::sparse::vector::add;
+use crate::sparse::vector::{add, add_at};
 use crate::sparse::{NotPositiveDefinite, Symbolic, multiply};
 
 /// What a step solves.
@@ -31,6 +32,8 @@ pub struct Dynamic {
     /// alpha of Hilber, Hughes and Taylor, from -1/3 to 0
     hht: f64,
     condensed: Condensed,
+    /// the same for each column beyond a free-field side
+    columns: Vec<Stepper>,
 }
 
 /// An accepted step.
@@ -64,7 +67,9 @@ impl Stepper {
                     ((1. + hht) * constants.a1, &system.damping),
                 ]);
                 let condensed = Condensed::new(system, symbolic, &effective, Reference::Bodies, options)?;
-                Ok(Stepper::Dynamic(Dynamic { constants, hht, condensed }))
+                let column = |c: &Column| Stepper::new(&c.system, &c.symbolic, scheme, dt, options);
+                let columns = system.columns.iter().map(column).collect::<Result<_, _>>()?;
+                Ok(Stepper::Dynamic(Dynamic { constants, hht, condensed, columns }))
             }
         }
     }
@@ -78,7 +83,14 @@ impl Stepper {
                 let solved = condensed.solve(system, system.load(time), system.jumps(&old.q), &old.joints, None)?;
                 let zero = vec![0.; solved.x.len()];
                 Ok(Step {
-                    state: State { time, q: solved.x, v: zero.clone(), a: zero, joints: solved.joints },
+                    state: State {
+                        time,
+                        q: solved.x,
+                        v: zero.clone(),
+                        a: zero,
+                        joints: solved.joints,
+                        free_field: vec![],
+                    },
                     iterations: solved.iterations,
                     displacement_test: solved.displacement_test,
                 })
@@ -90,7 +102,8 @@ impl Stepper {
 impl Dynamic {
     fn step(&mut self, system: &System, old: &State) -> Result<Step, Unsettled> {
         let time = old.time + self.constants.dt;
-        let rhs = self.right_hand_side(system, old, time);
+        let free_field = self.free_field(system, old)?;
+        let rhs = self.right_hand_side(system, old, time, &free_field);
         let damping = self.joint_damping(system, old);
         let solved = self.condensed.solve(system, rhs, system.jumps(&old.q), &old.joints, damping)?;
 
@@ -98,14 +111,20 @@ impl Dynamic {
         let a: Vec<f64> = (0..q.len()).map(|i| self.constants.acceleration(q[i], before(i))).collect();
         let v = (0..q.len()).map(|i| self.constants.velocity(a[i], before(i))).collect();
         Ok(Step {
-            state: State { time, q, v, a, joints: solved.joints },
+            state: State { time, q, v, a, joints: solved.joints, free_field },
             iterations: solved.iterations,
             displacement_test: solved.displacement_test,
         })
     }
 
+    /// The columns beyond free-field sides, which know nothing of the model, one step later.
+    fn free_field(&mut self, system: &System, old: &State) -> Result<Vec<State>, Unsettled> {
+        let columns = system.columns.iter().zip(&mut self.columns).zip(&old.free_field);
+        columns.map(|((column, stepper), old)| Ok(stepper.step(&column.system, old)?.state)).collect()
+    }
+
     /// (1 + alpha) f - alpha f_t + M (a0 q + a2 v + a3 a) + (1 + alpha) C (a1 q + a4 v + a5 a) + alpha (C v + K q).
-    fn right_hand_side(&self, system: &System, old: &State, time: f64) -> Vec<f64> {
+    fn right_hand_side(&self, system: &System, old: &State, time: f64, free_field: &[State]) -> Vec<f64> {
         let before = |i: usize| [old.q[i], old.v[i], old.a[i]];
         let weight = 1. + self.hht;
         let for_mass = |i: usize| self.constants.for_mass(before(i));
@@ -114,9 +133,12 @@ impl Dynamic {
         let Products { pattern, mass, damping, .. } = &system.products;
         let mut rhs = pattern.sum_of_products([mass, damping], &for_both);
         add(&mut rhs, 1., &system.load(time));
+        add_at(&mut rhs, weight, &system.free_field_force(free_field));
+        add_at(&mut rhs, 1., &system.free_field_inertia(free_field));
         if self.hht != 0. {
             let mut change = system.load(time);
             add(&mut change, -1., &system.load(old.time));
+            add_at(&mut change, -1., &system.free_field_force(&old.free_field));
             add(&mut change, 1., &multiply(&system.stiffness, &old.q));
             add(&mut rhs, self.hht, &change);
         }

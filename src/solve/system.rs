@@ -1,6 +1,7 @@
 //! The equations M a + C v + K u + r(j) = f(t) in the unknowns q, and the state that moves.
 
 use super::assembly;
+use super::free_field::Column;
 use super::interface::{Interface, JointState};
 use super::unknowns::Unknowns;
 use crate::Result;
@@ -9,25 +10,33 @@ use crate::model::sweep::Sweep;
 use crate::physics::pulse::Pulse;
 use crate::sparse::{Symbolic, Upper};
 use serde::Serialize;
-use sprs::CsMat;
+use sprs::{CsMat, TriMat};
 
-/// K, M and C hold the bodies only and share one pattern, so that sums of them are sums of their values.
+/// K, M and C hold the bodies and what lets waves out of them; they share one pattern, so that sums of them are sums of
+/// their values.
 pub struct System {
     pub unknowns: Unknowns,
     /// [N/m]
     pub stiffness: CsMat<f64>,
     /// [kg]
     pub mass: CsMat<f64>,
-    /// [N s/m]; Rayleigh's, zero until [`System::with_damping`], and the dashpots
+    /// [N s/m]; the dashpots alone until [`System::with_damping`]
     pub damping: CsMat<f64>,
-    /// the part of C that lets waves out, if any [N s/m]
+    /// the part of C that lets waves out, without its zeros, if there is any [N s/m]
     pub dashpots: Option<CsMat<f64>>,
+    /// zero until [`System::with_damping`]
+    pub rayleigh: Rayleigh,
     pub products: Products,
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
     pub interface: Interface,
     /// weight of everything [N]; acts at all times
     pub gravity: Vec<f64>,
+    /// what held the absorbing boundaries in the static stage [N]; acts at all times, zero until
+    /// [`start::release`](super::start::release)
+    pub reactions: Vec<f64>,
+    /// the ground beyond free-field sides
+    pub columns: Vec<Column>,
     /// spatial vector [N per unit of the pulse] and history
     loads: Vec<(Vec<f64>, Pulse)>,
     /// loads that do not act everywhere at once
@@ -40,6 +49,14 @@ pub struct Products {
     pub stiffness: Vec<f64>,
     pub mass: Vec<f64>,
     pub damping: Vec<f64>,
+}
+
+impl Products {
+    fn new(stiffness: &CsMat<f64>, mass: &CsMat<f64>, damping: &CsMat<f64>) -> Products {
+        let pattern = Upper::new(mass);
+        let [stiffness, mass, damping] = [stiffness, mass, damping].map(|matrix| pattern.values(matrix));
+        Products { pattern, stiffness, mass, damping }
+    }
 }
 
 /// Rayleigh damping C = alpha M + beta K.
@@ -61,6 +78,8 @@ pub struct State {
     pub v: Vec<f64>,
     pub a: Vec<f64>,
     pub joints: Vec<JointState>,
+    /// of each column beyond a free-field side
+    pub free_field: Vec<State>,
 }
 
 impl System {
@@ -71,16 +90,16 @@ impl System {
             Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump);
         let simultaneous = model.loads.iter().filter(|load| load.sweep.is_none());
         let loads = simultaneous.map(|load| (assembly::load(model, &unknowns, load), load.pulse.clone()));
-        let dashpots = (!model.dashpots.is_empty()).then(|| assembly::dashpots(model, &unknowns, scaled(&mass, 0.)));
-        let damping = dashpots.clone().unwrap_or_else(|| scaled(&mass, 0.));
-        let pattern = Upper::new(&mass);
-        let [k, m, c] = [&stiffness, &mass, &damping].map(|matrix| pattern.values(matrix));
+        let damping = assembly::dashpots(model, &unknowns, scaled(&mass, 0.));
         Ok(System {
-            products: Products { pattern, stiffness: k, mass: m, damping: c },
+            dashpots: (!model.absorbers.is_empty()).then(|| without_zeros(&damping)),
+            products: Products::new(&stiffness, &mass, &damping),
             damping,
-            dashpots,
+            rayleigh: Rayleigh::default(),
             joint_beta: None,
             gravity: assembly::gravity(model, &unknowns),
+            reactions: vec![0.; unknowns.count],
+            columns: model.free_fields.iter().map(|side| Column::new(model, &unknowns, side)).collect::<Result<_>>()?,
             loads: loads.collect(),
             sweeps: model.loads.iter().filter_map(|load| load.sweep.clone()).collect(),
             unknowns,
@@ -90,14 +109,24 @@ impl System {
         })
     }
 
-    /// C = alpha M + beta K of the bodies and the dashpots; with `joints` beta also damps the closed joints, as the
+    /// C = alpha M + beta K of the bodies and the dashpots D; with `joints` beta also damps the closed joints, as the
     /// paper's C(U).
+    ///
+    /// The ground beyond the dashpots is damped alike: its impedance is rho c sqrt((1 + alpha / i w)(1 + i w beta)), to
+    /// first order rho c (1 + alpha / 2 i w + i w beta / 2). So K gets alpha D / 2 and M gets beta D / 2.
     pub fn with_damping(self, Rayleigh { alpha, beta }: Rayleigh, joints: bool) -> System {
-        let damping = combine(&[(alpha, &self.mass), (beta, &self.stiffness), (1., &self.damping)]);
+        let dashpots = &self.damping;
+        let damping = combine(&[(alpha, &self.mass), (beta, &self.stiffness), (1., dashpots)]);
+        let stiffness = combine(&[(1., &self.stiffness), (alpha / 2., dashpots)]);
+        let mass = combine(&[(1., &self.mass), (beta / 2., dashpots)]);
         System {
-            products: Products { damping: self.products.pattern.values(&damping), ..self.products },
+            products: Products::new(&stiffness, &mass, &damping),
+            stiffness,
+            mass,
             damping,
             joint_beta: joints.then_some(beta),
+            rayleigh: Rayleigh { alpha, beta },
+            columns: self.columns.into_iter().map(|c| c.with_damping(Rayleigh { alpha, beta })).collect(),
             ..self
         }
     }
@@ -107,9 +136,9 @@ impl System {
         Symbolic::bordered(&self.mass, self.unknowns.first_jump)
     }
 
-    /// f(t) [N].
+    /// f(t) [N]: loads, weight, and what held the boundaries when nothing moved.
     pub fn load(&self, time: f64) -> Vec<f64> {
-        let mut f = self.gravity.clone();
+        let mut f: Vec<f64> = self.gravity.iter().zip(&self.reactions).map(|(g, r)| g + r).collect();
         for (vector, pulse) in &self.loads {
             let factor = pulse.at(time);
             f.iter_mut().zip(vector).for_each(|(f, r)| *f += factor * r);
@@ -120,6 +149,16 @@ impl System {
             }
         }
         f
+    }
+
+    /// (unknown, force [N]) of the ground beyond free-field sides in the states of its columns, but for the inertial part.
+    pub fn free_field_force(&self, states: &[State]) -> Vec<(usize, f64)> {
+        self.columns.iter().zip(states).flat_map(|(column, state)| column.force(state)).collect()
+    }
+
+    /// The part that goes with the columns' acceleration.
+    pub fn free_field_inertia(&self, states: &[State]) -> Vec<(usize, f64)> {
+        self.columns.iter().zip(states).flat_map(|(column, state)| column.inertia(state)).collect()
     }
 
     /// The trailing part of a vector: the jumps.
@@ -142,7 +181,8 @@ impl System {
 
 impl State {
     pub fn is_finite(&self) -> bool {
-        [&self.q, &self.v, &self.a].iter().all(|x| x.iter().all(|x| x.is_finite()))
+        let finite = |x: &Vec<f64>| x.iter().all(|x| x.is_finite());
+        [&self.q, &self.v, &self.a].into_iter().all(finite) && self.free_field.iter().all(State::is_finite)
     }
 
     pub fn at_rest(system: &System) -> State {
@@ -153,6 +193,7 @@ impl State {
             v: zero.clone(),
             a: zero,
             joints: vec![JointState::default(); system.interface.points.len()],
+            free_field: system.columns.iter().map(|column| State::at_rest(&column.system)).collect(),
         }
     }
 }
@@ -165,6 +206,12 @@ pub fn combine(terms: &[(f64, &CsMat<f64>)]) -> CsMat<f64> {
         sum.data_mut().iter_mut().zip(matrix.data()).for_each(|(s, m)| *s += factor * m);
     }
     sum
+}
+
+fn without_zeros(matrix: &CsMat<f64>) -> CsMat<f64> {
+    let mut sparse = TriMat::new(matrix.shape());
+    matrix.iter().filter(|(value, _)| **value != 0.).for_each(|(&value, (i, j))| sparse.add_triplet(i, j, value));
+    sparse.to_csr()
 }
 
 fn scaled(matrix: &CsMat<f64>, factor: f64) -> CsMat<f64> {

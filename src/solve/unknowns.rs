@@ -7,6 +7,7 @@ use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
 use crate::sparse::{Graph, elimination_order};
 use crate::{Error, Result};
+use std::collections::BTreeSet;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unknowns {
@@ -95,6 +96,12 @@ impl Unknowns {
             }
         }
         q
+    }
+
+    /// The unknowns that move a node along an axis in which `held` does not let it move.
+    pub fn freed_from(&self, held: &Unknowns) -> BTreeSet<usize> {
+        let rows = self.rows.iter().zip(&held.rows).filter(|(_, held)| held.is_empty());
+        rows.flat_map(|(row, _)| row.iter().map(|&(i, _)| i)).collect()
     }
 
     /// What a node can have of a displacement: nothing where a support holds it.

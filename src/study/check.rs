@@ -2,7 +2,7 @@
 
 use super::loads;
 use super::run::{Loaded, Request, load};
-use crate::model::case::Case;
+use crate::model::case::{Analysis, Boundary, Case};
 use crate::model::mesh::{Group, Mesh};
 use crate::model::quality;
 use crate::model::resolve::Model;
@@ -84,14 +84,22 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
     if case.initial.contains_key(&group.name) {
         roles.push("initial motion".into());
     }
-    if case.boundaries.contains_key(&group.name) {
-        roles.push("viscous boundary".into());
+    if let Some(kind) = case.boundaries.get(&group.name) {
+        roles.push(boundary_role(*kind, case.analysis).into());
     }
     roles.extend(model.loads.iter().filter(|load| load.group == group.name).map(loads::role));
     if model.probes.iter().any(|p| p.name == group.name) {
         roles.push("probe".into());
     }
     if roles.is_empty() { "not used".into() } else { roles.join("; ") }
+}
+
+fn boundary_role(kind: Boundary, analysis: Analysis) -> &'static str {
+    match (analysis, kind) {
+        (Analysis::Static, _) => "boundary: holds, since nothing moves",
+        (_, Boundary::Viscous) => "boundary: viscous",
+        (_, Boundary::FreeField) => "boundary: viscous against the free field beyond it",
+    }
 }
 
 fn material_role(m: &Material) -> String {

@@ -5,7 +5,6 @@ use super::run::{Loaded, Request, load};
 use super::screen::Screen;
 use crate::results::file;
 use crate::results::frame::{Frame, Grid};
-use crate::solve::modes::natural_modes;
 use crate::solve::system::State;
 use crate::{Error, Result};
 
@@ -28,7 +27,7 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
             "-n {count}: at most {MOST_MODES} modes; their vectors are kept all at once"
         )));
     }
-    let modes = natural_modes(&prepared.system, &prepared.symbolic, count)?;
+    let modes = prepared.natural_modes(count)?;
 
     let folder = request.folder(&case).join("modes");
     file::create_folder(&folder)?;

@@ -35,11 +35,16 @@ impl Prepared {
 
         let start = Instant::now();
         let damping = model.damping.map(|d| d.rayleigh);
-        let modes = natural_modes(&system, &symbolic, needed_modes(damping))?;
+        let modes = modes_of(&model, &system, &symbolic, needed_modes(damping))?;
         let rayleigh = coefficients(damping, &modes)?;
         let joints = model.damping.is_some_and(|d| d.interfaces);
         let system = system.with_damping(rayleigh, joints);
         Ok(Prepared { model, system, symbolic, modes, rayleigh, setup, factor: start.elapsed() })
+    }
+
+    /// The lowest `count` natural modes.
+    pub fn natural_modes(&self, count: usize) -> Result<Vec<NaturalMode>> {
+        modes_of(&self.model, &self.system, &self.symbolic, count)
     }
 
     /// Where a matrix stopped being positive definite, in the user's words.
@@ -53,6 +58,23 @@ impl Prepared {
     pub fn frequencies(&self) -> Vec<f64> {
         self.modes.iter().map(|m| m.frequency).collect()
     }
+}
+
+/// What lets waves out has no modes of its own: they are those of the model as its boundaries hold it in a static stage.
+fn modes_of(model: &Model, system: &System, symbolic: &Symbolic, count: usize) -> Result<Vec<NaturalMode>> {
+    if model.absorbers.is_empty() {
+        return natural_modes(system, symbolic, count);
+    }
+    let held = System::new(&model.held())?;
+    if held.unknowns.count == 0 {
+        return Ok(vec![]);
+    }
+    let modes = natural_modes(&held, &held.symbolic(), count)?;
+    let released = |m: NaturalMode| NaturalMode {
+        shape: system.unknowns.from_nodes(&held.unknowns.at_nodes(&m.shape)),
+        frequency: m.frequency,
+    };
+    Ok(modes.into_iter().map(released).collect())
 }
 
 fn needed_modes(damping: Option<Damping>) -> usize {

@@ -121,12 +121,13 @@ impl<'a> Recorder<'a> {
         let _ = writeln!(
             self.status_lines,
             "{number:7} {:12.5e} {:9.2e} {:4} {:9.2e} {open:5} {slipping:5} {:11.4e} {:11.4e} {:11.4e} {:11.4e} \
-             {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
+             {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
             step.state.time,
             step.state.time - old.time,
             step.iterations,
             step.displacement_test,
             e.work,
+            e.free_field,
             e.kinetic,
             e.strain,
             e.joint,
@@ -173,7 +174,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-const STATUS_HEADER: &str = "#  step       t [s]    dt [s] iter  eq.(19)   open  slip   work [J/m]     kinetic      strain       \
+const STATUS_HEADER: &str = "#  step       t [s]    dt [s] iter  eq.(19)   open  slip   work [J/m]  free field     kinetic      strain       \
                              joint     damping    boundary    friction     contact    residual left [s]\n";
 
 fn probe_places(prepared: &Prepared) -> Vec<ProbePlace> {

@@ -12,8 +12,8 @@ use crate::results::summary::{Inputs, Timing};
 use crate::solve::march::March;
 use crate::solve::start;
 use crate::solve::step::{Scheme, Stepper};
-use crate::solve::system::State;
-use crate::sparse::NotPositiveDefinite;
+use crate::solve::system::{State, System};
+use crate::sparse::{NotPositiveDefinite, Symbolic};
 use crate::{Error, Result};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -81,11 +81,13 @@ pub fn command(request: &Request) -> Result<String> {
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
     let told = model.warnings.len();
-    let prepared = Prepared::new(model)?;
+    let mut prepared = Prepared::new(model)?;
     screen.say(&format!("{} unknowns, {} joints", prepared.system.unknowns.count, prepared.model.joints.len()));
 
     let factoring = Instant::now();
-    let (state, origin, mut march) = ready_to_march(&prepared)?;
+    let rest = under_gravity(&mut prepared)?;
+    let prepared = prepared;
+    let (state, origin, mut march) = ready_to_march(&prepared, rest)?;
     let timing = Timing {
         mesh_s: meshed.took.as_secs_f64(),
         setup_s: prepared.setup.as_secs_f64(),
@@ -109,19 +111,17 @@ pub fn command(request: &Request) -> Result<String> {
     Ok(summary.table() + &format!("results in {}\n", folder.path().display()))
 }
 
-/// The state at t = 0, the unknowns in equilibrium under gravity, and the march from there.
-fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
+/// The state at t = 0, the unknowns in equilibrium under gravity (which is `rest`), and the march from there.
+fn ready_to_march(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>, March<'_>)> {
     let Prepared { model, system, symbolic, .. } = prepared;
     let not_definite = |e| prepared.not_definite(e);
     let (scheme, state, origin) = match model.analysis {
         Analysis::Static => {
-            let rest = under_gravity(prepared)?;
             let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
             let start = at_once.step(system, &rest).map_err(|why| unsettled::at_start(prepared, &why))?;
             (Scheme::Static, start.state, State::at_rest(system).q)
         }
         Analysis::Dynamic => {
-            let rest = under_gravity(prepared)?;
             let Initial { displacement, velocity } = &model.initial;
             let origin = rest.q.clone();
             let moving = start::with_motion(system, rest, displacement, velocity);
@@ -138,17 +138,25 @@ fn ready_to_march(prepared: &Prepared) -> Result<(State, Vec<f64>, March<'_>)> {
     Ok((state, origin, march.with_energy_budget(model.time.energy_budget)))
 }
 
-fn under_gravity(prepared: &Prepared) -> Result<State> {
-    let found = start::under_gravity(&prepared.system, &prepared.symbolic, prepared.model.newton);
-    found.map_err(not_held)?.map_err(|why| unsettled::at_start(prepared, &why))
+/// Equilibrium under gravity. Boundaries that let waves out hold the ground in it, and go on to push as they did.
+fn under_gravity(prepared: &mut Prepared) -> Result<State> {
+    let settle = |prepared: &Prepared, system: &System, symbolic: &Symbolic| {
+        let found = start::under_gravity(system, symbolic, prepared.model.newton).map_err(not_held)?;
+        found.map_err(|why| unsettled::at_start(prepared, &why))
+    };
+    if prepared.model.gravity == 0. || prepared.model.absorbers.is_empty() {
+        return settle(prepared, &prepared.system, &prepared.symbolic);
+    }
+    let held = System::new(&prepared.model.held())?;
+    let rest = settle(prepared, &held, &held.symbolic())?;
+    let (state, reactions) = start::released(&prepared.system, &held, &rest);
+    prepared.system.reactions = reactions;
+    Ok(state)
 }
 
 /// Statics without inertia: the only way to be singular is not to be held.
 fn not_held(_: NotPositiveDefinite) -> Error {
-    Error::input(
-        "nothing holds the mesh, or a part of it, against a steady load (viscous boundaries do not): add a support in x \
-         and in y",
-    )
+    Error::input("nothing holds the mesh, or a part of it, against a steady load: add a support in x and in y")
 }
 
 fn march_to_end(

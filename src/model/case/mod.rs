@@ -62,7 +62,8 @@ pub struct Case {
     /// Directions in which a curve or point group is held. Default: none.
     #[serde(default)]
     pub supports: BTreeMap<String, Vec<Axis>>,
-    /// Absorbing boundaries by curve group: "viscous" lets plane P and S waves out at normal incidence. Default: none.
+    /// Boundaries by curve group that let waves out: "viscous" (base), "free_field" (upright sides, where the layers go on
+    /// beyond the mesh). Default: none.
     #[serde(default)]
     pub boundaries: BTreeMap<String, Boundary>,
     /// Loads by group; an object, or a list of objects that add up. Default: none.
@@ -167,6 +168,8 @@ pub enum Analysis {
 pub enum Boundary {
     /// dashpots of the impedances rho c_p and rho c_s of the ground behind the curve (Lysmer and Kuhlemeyer 1969)
     Viscous,
+    /// the same dashpots, on what differs from the column of ground beyond an upright side, which is computed alongside
+    FreeField,
 }
 
 /// Motion of a group's nodes at t = 0.

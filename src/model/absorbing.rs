@@ -1,0 +1,104 @@
+//! Curves that let waves out: which they are, where they must not be, and how they hold the ground while nothing moves.
+
+use super::boundary::{Border, Sides, border};
+use super::case::{Boundary, Case};
+use super::mesh::Mesh;
+use super::resolve::{Load, Model, Target};
+use crate::physics::material::Material;
+use crate::{Error, Result};
+
+/// A line of dashpots.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Absorber {
+    pub line: Border,
+    /// the face behind it
+    pub face: usize,
+    /// of that face
+    pub material: Material,
+    /// place of its group among the case's boundaries
+    pub group: usize,
+}
+
+/// The lines of all boundaries.
+///
+/// Errors: a curve that is held as well, or viscous where a load pushes along it.
+pub fn absorbers(
+    case: &Case,
+    mesh: &Mesh,
+    sides: &Sides,
+    material_of: impl Fn(usize) -> Material,
+    loads: &[Load],
+) -> Result<Vec<Absorber>> {
+    let mut absorbers = Vec::new();
+    for (number, (name, kind)) in case.boundaries.iter().enumerate() {
+        let group = mesh.group_of(name, 1, "boundary")?;
+        refuse_support(case, mesh, name, &group.cells)?;
+        for (line, face) in border(mesh, group, sides)? {
+            if *kind == Boundary::Viscous {
+                refuse_drain(mesh, name, &line, loads)?;
+            }
+            absorbers.push(Absorber { line, face, material: material_of(face), group: number });
+        }
+    }
+    Ok(absorbers)
+}
+
+/// A support of the same name, or of another curve that runs over the same lines, would hold what should move.
+fn refuse_support(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Result<()> {
+    for other in case.supports.keys() {
+        let group = mesh.group(other).map_err(|e| Error::input(format!("supports: {e}")))?;
+        if let Some(&cell) = cells.iter().find(|cell| group.cells.binary_search(cell).is_ok()) {
+            let which = if other == name { String::new() } else { format!(", as \"{other}\",") };
+            return Err(Error::input(format!(
+                "\"{name}\" stands in boundaries and{which} in supports, at {}: a curve that lets waves out cannot be held; \
+                 take it out of one (a static stage holds it by itself)",
+                mesh.place(cell)
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Where a load's own curve ends at a viscous one and pushes along it, the wave it makes runs along the dashpots.
+fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, loads: &[Load]) -> Result<()> {
+    let along = line.tangent(mesh);
+    for load in loads {
+        let lines = match &load.target {
+            Target::Pressure { lines } | Target::Traction { lines, .. } => lines,
+            _ => continue,
+        };
+        for loaded in lines.iter().filter(|l| l.nodes != line.nodes) {
+            let Some(&corner) = loaded.nodes.iter().find(|n| line.nodes.contains(n)) else { continue };
+            let [dx, dy] = match &load.target {
+                Target::Traction { direction, .. } => *direction,
+                _ => [-loaded.tangent(mesh)[1], loaded.tangent(mesh)[0]],
+            };
+            if (dx * along[0] + dy * along[1]).abs() > (dx * along[1] - dy * along[0]).abs() {
+                let [x, y] = mesh.points[corner];
+                return Err(Error::input(format!(
+                    "boundaries.{name}: it is \"viscous\", and the load on \"{}\" pushes along it where the two meet, at \
+                     ({x:.4}, {y:.4}) m: the ground beyond such a side moves with the wave, but dashpots would hold on to it and \
+                     drain it; write \"free_field\" there, or take it out of boundaries and hold it across: \
+                     \"supports\": {{ \"{name}\": [\"{}\"] }}",
+                    load.group,
+                    if along[1].abs() > along[0].abs() { "x" } else { "y" }
+                )));
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Model {
+    /// The model while nothing moves: upright absorbing lines hold x (rollers), all others x and y.
+    pub fn held(&self) -> Model {
+        let mut fixed = self.fixed.clone();
+        for absorber in &self.absorbers {
+            let upright = absorber.line.is_upright(&self.mesh);
+            for &node in &absorber.line.nodes {
+                fixed[node] = [true, fixed[node][1] || !upright];
+            }
+        }
+        Model { fixed, absorbers: vec![], free_fields: vec![], ..self.clone() }
+    }
+}
