@@ -7,10 +7,11 @@ use super::system::System;
 use crate::model::case::Newton;
 use crate::sparse::{Factor, NotPositiveDefinite, Symbolic};
 use sprs::CsMat;
+use std::sync::Arc;
 
 /// A x + r(j) = b with x the unknowns, j the jumps at their end, r the joint forces.
 pub struct Condensed {
-    factor: Factor,
+    factor: Arc<Factor>,
     contact: Contact,
 }
 
@@ -24,8 +25,7 @@ pub enum Reference {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solved {
-    pub x: Vec<f64>,
+pub struct Settled {
     pub joints: Vec<JointState>,
     pub iterations: usize,
     /// the paper's test (19), on the jumps
@@ -54,27 +54,49 @@ impl Condensed {
                 Contact::new(schur, options).stabilised()
             }
         };
-        Ok(Condensed { factor, contact })
+        Ok(Condensed { factor: factor.into(), contact })
     }
 
-    /// Solves for `right_hand_side`, the joints moving on from `old`; `guess` of the jumps starts Newton.
+    /// For another system of the same matrix, whose joints have a history of their own.
+    pub fn sharing_factor(&self) -> Condensed {
+        Condensed { factor: self.factor.clone(), contact: self.contact.sharing_matrix() }
+    }
+
+    /// A x + r(j) = b.
     pub fn solve(
         &mut self,
         system: &System,
-        right_hand_side: Vec<f64>,
+        b: Vec<f64>,
         guess: &[f64],
         old: &[JointState],
         damping: Option<JointDamping>,
-    ) -> Result<Solved, Unsettled> {
-        let mut x = right_hand_side;
+    ) -> Result<(Vec<f64>, Settled), Unsettled> {
+        let mut x = b;
         self.factor.condense(&mut x);
-        let right_hand_side = system.jumps(&x).to_vec();
+        let settled = self.settle(system, &mut x, guess, old, damping)?;
+        self.factor.expand(&mut x);
+        Ok((x, settled))
+    }
+
+    pub fn factor(&self) -> &Factor {
+        &self.factor
+    }
+
+    /// Between the sweeps: from the condensed right-hand side at the end of `x` to the jumps that satisfy the joints, put
+    /// in its place. The joints move on from `old`; `guess` of the jumps starts Newton.
+    pub fn settle(
+        &mut self,
+        system: &System,
+        x: &mut [f64],
+        guess: &[f64],
+        old: &[JointState],
+        damping: Option<JointDamping>,
+    ) -> Result<Settled, Unsettled> {
+        let right_hand_side = system.jumps(x).to_vec();
         let problem = Problem { interface: &system.interface, right_hand_side: &right_hand_side, old, damping };
         let solution = self.contact.solve(&problem, guess)?;
         x[system.unknowns.first_jump..].copy_from_slice(&solution.jumps);
-        self.factor.expand(&mut x);
-        Ok(Solved {
-            x,
+        Ok(Settled {
             joints: solution.responses.iter().map(JointState::from).collect(),
             iterations: solution.iterations,
             displacement_test: solution.displacement_test,

@@ -11,6 +11,7 @@ use crate::physics::joint::{Friction, JointLaw, Response, Status};
 use crate::sparse::vector::norm;
 use faer::Mat;
 use nalgebra::{Matrix2, Vector2};
+use std::sync::Arc;
 
 /// Relative residual below which a status may still flip: round-off decides it, and it carries no force.
 const ROUND_OFF: f64 = 1e-13;
@@ -62,7 +63,7 @@ pub enum Place {
 }
 
 pub struct Contact {
-    pub(super) schur: Mat<f64>,
+    pub(super) schur: Arc<Mat<f64>>,
     /// the tolerance is on |S j + r - b| / max(|b|, |S j|, |r|)
     pub(super) options: Newton,
     /// part of the closed stiffness that every tangent keeps, so that what slips freely has one
@@ -74,13 +75,18 @@ pub struct Contact {
 
 impl Contact {
     pub fn new(schur: Mat<f64>, options: Newton) -> Self {
-        Contact { schur, options, stabilisation: 0., inverse: Inverse::default(), last: None }
+        Contact { schur: schur.into(), options, stabilisation: 0., inverse: Inverse::default(), last: None }
     }
 
     /// For equilibrium without inertia, where a body that slips all round can turn without resistance. Only the way to
     /// the solution changes, not the solution: the residual knows nothing of it.
     pub fn stabilised(self) -> Self {
         Contact { stabilisation: 1e-9, ..self }
+    }
+
+    /// For other joints on the same bodies.
+    pub fn sharing_matrix(&self) -> Self {
+        Contact { schur: self.schur.clone(), inverse: Inverse::default(), last: None, ..*self }
     }
 
     /// Newton with the statuses inside the loop; where they run in a circle, the fixed point on Tresca's bound.

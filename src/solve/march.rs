@@ -2,7 +2,7 @@
 
 use super::contact::{Place, Unsettled};
 use super::energy::{joint_gain, mechanical};
-use super::step::{Scheme, Step, Stepper};
+use super::step::{Scheme, Step, Stepper, step_together};
 use super::system::{State, System};
 use crate::model::case::Newton;
 use crate::sparse::{NotPositiveDefinite, Symbolic};
@@ -55,11 +55,34 @@ impl<'a> March<'a> {
         March { budget: rate.map(|rate| Budget { rate, peak: 0. }), ..self }
     }
 
+    /// The march of another system that differs in loads and friction only, over the same factor.
+    pub fn sharing_factor(&self, system: &'a System) -> March<'a> {
+        March {
+            system,
+            levels: vec![self.levels[0].sharing_factor()],
+            budget: self.budget.as_ref().map(|b| Budget { peak: 0., ..*b }),
+            ..*self
+        }
+    }
+
     /// The state one whole step later, with the states between where it had to be cut.
     ///
     /// Error: the joints do not settle even in the shortest step; nothing unconverged is ever returned.
     pub fn advance(&mut self, old: &State) -> Result<Vec<Step>, Unsettled> {
-        let mut steps = self.advance_at(0, old)?;
+        let whole = self.levels[0].step(self.system, old);
+        self.on_the_grid(whole, old)
+    }
+
+    /// [`March::advance`] of up to [`MOST_TOGETHER`](super::step::MOST_TOGETHER) marches over the same factor.
+    pub fn advance_together(marches: &mut [&mut March], old: &[&State]) -> Vec<Result<Vec<Step>, Unsettled>> {
+        let systems: Vec<&System> = marches.iter().map(|march| march.system).collect();
+        let mut steppers: Vec<&mut Stepper> = marches.iter_mut().map(|march| &mut march.levels[0]).collect();
+        let whole = step_together(&mut steppers, &systems, old);
+        marches.iter_mut().zip(whole).zip(old).map(|((march, whole), old)| march.on_the_grid(whole, old)).collect()
+    }
+
+    fn on_the_grid(&mut self, whole: Result<Step, Unsettled>, old: &State) -> Result<Vec<Step>, Unsettled> {
+        let mut steps = self.or_in_halves(0, whole, old)?;
         if let Some(last) = steps.last_mut() {
             // Sums of steps drift from the grid by round-off.
             last.state.time = ((old.time / self.dt).round() + 1.) * self.dt;
@@ -75,9 +98,18 @@ impl<'a> March<'a> {
                 .map_err(|_| Unsettled::Overflow(Place::Matrix))?;
             self.levels.push(shorter);
         }
+        let whole = self.levels[level].step(self.system, old);
+        self.or_in_halves(level, whole, old)
+    }
+
+    fn or_in_halves(
+        &mut self,
+        level: usize,
+        whole: Result<Step, Unsettled>,
+        old: &State,
+    ) -> Result<Vec<Step>, Unsettled> {
         let system = self.system;
-        let tried = self.levels[level].step(system, old).and_then(|step| finite(system, step));
-        match tried {
+        match whole.and_then(|step| finite(system, step)) {
             tried if level == MAX_CUTS => Ok(vec![tried?]),
             Ok(step) if self.budget.as_mut().is_none_or(|b| b.allows(system, old, &step.state)) => Ok(vec![step]),
             _ => {

@@ -28,8 +28,8 @@ pub fn under_gravity(
     let mut in_parts = |parts: usize| {
         (1..=parts).try_fold(rest.clone(), |old, part| {
             let load = system.gravity.iter().map(|f| f * part as f64 / parts as f64).collect();
-            let solved = condensed.solve(system, load, system.jumps(&old.q), &old.joints, None)?;
-            Ok(State { q: solved.x, joints: solved.joints, ..old })
+            let (q, settled) = condensed.solve(system, load, system.jumps(&old.q), &old.joints, None)?;
+            Ok(State { q, joints: settled.joints, ..old })
         })
     };
     let mut found = in_parts(PARTS[0]);

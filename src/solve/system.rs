@@ -11,22 +11,23 @@ use crate::physics::pulse::Pulse;
 use crate::sparse::{Symbolic, Upper};
 use serde::Serialize;
 use sprs::{CsMat, TriMat};
+use std::sync::Arc;
 
 /// K, M and C hold the bodies and what lets waves out of them; they share one pattern, so that sums of them are sums of
-/// their values.
+/// their values. What is counted by reference belongs to all cases of a sweep.
 pub struct System {
-    pub unknowns: Unknowns,
+    pub unknowns: Arc<Unknowns>,
     /// [N/m]
-    pub stiffness: CsMat<f64>,
+    pub stiffness: Arc<CsMat<f64>>,
     /// [kg]
-    pub mass: CsMat<f64>,
+    pub mass: Arc<CsMat<f64>>,
     /// [N s/m]; the dashpots alone until [`System::with_damping`]
-    pub damping: CsMat<f64>,
+    pub damping: Arc<CsMat<f64>>,
     /// the part of C that lets waves out, without its zeros, if there is any [N s/m]
-    pub dashpots: Option<CsMat<f64>>,
+    pub dashpots: Option<Arc<CsMat<f64>>>,
     /// zero until [`System::with_damping`]
     pub rayleigh: Rayleigh,
-    pub products: Products,
+    pub products: Arc<Products>,
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
     pub interface: Interface,
@@ -86,26 +87,43 @@ impl System {
     pub fn new(model: &Model) -> Result<System> {
         let unknowns = Unknowns::new(&model.mesh, &model.fixed, &model.pairs)?;
         let (stiffness, mass) = assembly::stiffness_and_mass(model, &unknowns);
-        let interface =
-            Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump);
-        let simultaneous = model.loads.iter().filter(|load| load.sweep.is_none());
-        let loads = simultaneous.map(|load| (assembly::load(model, &unknowns, load), load.pulse.clone()));
         let damping = assembly::dashpots(model, &unknowns, scaled(&mass, 0.));
         Ok(System {
-            dashpots: (!model.absorbers.is_empty()).then(|| without_zeros(&damping)),
-            products: Products::new(&stiffness, &mass, &damping),
-            damping,
+            dashpots: (!model.absorbers.is_empty()).then(|| Arc::new(without_zeros(&damping))),
+            products: Arc::new(Products::new(&stiffness, &mass, &damping)),
             rayleigh: Rayleigh::default(),
             joint_beta: None,
+            interface: interface(model, &unknowns),
             gravity: assembly::gravity(model, &unknowns),
             reactions: vec![0.; unknowns.count],
-            columns: model.free_fields.iter().map(|side| Column::new(model, &unknowns, side)).collect::<Result<_>>()?,
-            loads: loads.collect(),
-            sweeps: model.loads.iter().filter_map(|load| load.sweep.clone()).collect(),
-            unknowns,
-            stiffness,
-            mass,
-            interface,
+            columns: columns(model, &unknowns)?,
+            loads: loads(model, &unknowns),
+            sweeps: fronts(model),
+            unknowns: unknowns.into(),
+            stiffness: stiffness.into(),
+            mass: mass.into(),
+            damping: damping.into(),
+        })
+    }
+
+    /// The system of a model that differs from this one's in its loads and the friction of its joints only.
+    pub fn with_loads_of(&self, model: &Model) -> Result<System> {
+        let columns = columns(model, &self.unknowns)?;
+        Ok(System {
+            unknowns: self.unknowns.clone(),
+            stiffness: self.stiffness.clone(),
+            mass: self.mass.clone(),
+            damping: self.damping.clone(),
+            dashpots: self.dashpots.clone(),
+            rayleigh: self.rayleigh,
+            products: self.products.clone(),
+            joint_beta: self.joint_beta,
+            interface: interface(model, &self.unknowns),
+            gravity: self.gravity.clone(),
+            reactions: vec![0.; self.unknowns.count],
+            columns: columns.into_iter().map(|c| c.with_damping(self.rayleigh)).collect(),
+            loads: loads(model, &self.unknowns),
+            sweeps: fronts(model),
         })
     }
 
@@ -120,10 +138,10 @@ impl System {
         let stiffness = combine(&[(1., &self.stiffness), (alpha / 2., dashpots)]);
         let mass = combine(&[(1., &self.mass), (beta / 2., dashpots)]);
         System {
-            products: Products::new(&stiffness, &mass, &damping),
-            stiffness,
-            mass,
-            damping,
+            products: Arc::new(Products::new(&stiffness, &mass, &damping)),
+            stiffness: stiffness.into(),
+            mass: mass.into(),
+            damping: damping.into(),
             joint_beta: joints.then_some(beta),
             rayleigh: Rayleigh { alpha, beta },
             columns: self.columns.into_iter().map(|c| c.with_damping(Rayleigh { alpha, beta })).collect(),
@@ -168,7 +186,7 @@ impl System {
 
     /// K with every joint closed and sticking: the reference of natural frequencies.
     pub fn closed_stiffness(&self) -> CsMat<f64> {
-        let mut closed = self.stiffness.clone();
+        let mut closed = CsMat::clone(&self.stiffness);
         let first = self.unknowns.first_jump;
         for point in &self.interface.points {
             self.interface.tangent(point, &point.law.closed_stiffness(), |i, j, value| {
@@ -177,6 +195,23 @@ impl System {
         }
         closed
     }
+}
+
+fn interface(model: &Model, unknowns: &Unknowns) -> Interface {
+    Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump)
+}
+
+fn loads(model: &Model, unknowns: &Unknowns) -> Vec<(Vec<f64>, Pulse)> {
+    let simultaneous = model.loads.iter().filter(|load| load.sweep.is_none());
+    simultaneous.map(|load| (assembly::load(model, unknowns, load), load.pulse.clone())).collect()
+}
+
+fn fronts(model: &Model) -> Vec<Sweep> {
+    model.loads.iter().filter_map(|load| load.sweep.clone()).collect()
+}
+
+fn columns(model: &Model, unknowns: &Unknowns) -> Result<Vec<Column>> {
+    model.free_fields.iter().map(|side| Column::new(model, unknowns, side)).collect()
 }
 
 impl State {

@@ -56,7 +56,7 @@ impl Contact {
     }
 
     fn tangent(&self, problem: &Problem, responses: &[Response]) -> Mat<f64> {
-        let mut tangent = self.schur.clone();
+        let mut tangent = Mat::clone(&self.schur);
         for (point, d) in problem.interface.points.iter().zip(self.tangents(problem, responses)) {
             problem.interface.tangent(point, &d, |i, j, value| tangent[(i, j)] += value);
         }
