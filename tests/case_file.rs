@@ -274,7 +274,7 @@ fn an_unknown_key_is_named_with_its_neighbours_and_the_nearest() {
             "materials.layer_1.yuong=1",
             "there is no key \"yuong\" (did you mean \"young\"?); the keys are: young, poisson, density, friction",
         ),
-        ("time.zebra=1", "there is no key \"zebra\"; the keys are: step, end, newmark, hht, start"),
+        ("time.zebra=1", "there is no key \"zebra\"; the keys are: step, end, newmark, hht, energy_tolerance, start"),
         ("damping.rato=1", "did you mean \"ratio\"?"),
         ("geometry.parameter=1", "did you mean \"parameters\"?"),
         ("gravty=9.81", "did you mean \"gravity\"?"),
