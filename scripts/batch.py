@@ -16,11 +16,15 @@ import sys
 DONE = '"status": "done"'
 
 
+class BadLine(Exception):
+    """A line of the list that says nothing; the others count."""
+
+
 def number(text, line):
     try:
         return float(text)
     except ValueError:
-        sys.exit(f"{line}: {text!r} is no number; write NAME=NUMBER, as in spacing=1.8")
+        raise BadLine(f"{line}: {text!r} is no number; write NAME=NUMBER, as in spacing=1.8") from None
 
 
 def written(value):
@@ -35,35 +39,47 @@ class Variant:
     def __init__(self, text, line):
         self.case, *pairs = text.split()
         if "=" in self.case:
-            sys.exit(f"{line}: begin with the case, as in twin_pipes {text}")
+            raise BadLine(f"{line}: begin with the case, as in twin_pipes {text}")
         for pair in pairs:
             if "=" not in pair:
-                sys.exit(f"{line}: {pair!r} is no value; write NAME=NUMBER, as in spacing=1.8")
+                raise BadLine(f"{line}: {pair!r} is no value; write NAME=NUMBER, as in spacing=1.8")
         split = (pair.split("=", 1) for pair in pairs)
         self.values = {name: number(value, line) for name, value in sorted(split)}
         self.name = self.case + "".join(f"_{n}{written(v)}" for n, v in self.values.items())
         self.case_file = pathlib.Path("geo", f"{self.case}.json")
         if not self.case_file.exists():
             there = ", ".join(sorted(p.stem for p in pathlib.Path("geo").glob("*.json")))
-            sys.exit(f"{line}: there is no case {self.case_file}; there are: {there}")
+            raise BadLine(f"{line}: there is no case {self.case_file}; there are: {there}")
+        self.script = self.case_file.parent / self.script_name(line)
+        if not self.script.exists():
+            raise BadLine(f"{line}: there is no script {self.script}, which {self.case_file} names")
 
-    def script(self):
-        """The .geo of the case."""
+    def script_name(self, line):
+        """What the case calls its .geo."""
         try:
-            geometry = json.loads(self.case_file.read_text())["geometry"]
-            return self.case_file.parent / geometry["script"]
+            return json.loads(self.case_file.read_text())["geometry"]["script"]
         except (ValueError, KeyError, TypeError):
-            sys.exit(f'{self.case_file}: a case of a batch needs its "geometry": {{ "script": "NAME.geo" }}')
+            raise BadLine(
+                f'{line}: {self.case_file} needs its "geometry": {{ "script": "NAME.geo" }} for a batch'
+            ) from None
 
 
 def read(list_file):
-    """The variants, each once, in the order of the list."""
+    """The variants, each once, in the order of the list; and a sentence for each line that is none."""
     lines = enumerate(pathlib.Path(list_file).read_text().splitlines(), 1)
     texts = ((number, line.split("#")[0].strip()) for number, line in lines)
-    variants = [Variant(text, f"{list_file}, line {number}") for number, text in texts if text]
+    variants, bad = {}, []
+    for number, text in texts:
+        try:
+            if text:
+                variant = Variant(text, f"{list_file}, line {number}")
+                variants[variant.name] = variant
+        except BadLine as sentence:
+            bad.append(str(sentence))
     if not variants:
-        sys.exit(f"{list_file} lists no variant; write lines such as: twin_pipes crown=3.5 spacing=1.8")
-    return list({v.name: v for v in variants}.values())
+        sentences = bad or [f"{list_file} lists no variant; write lines such as: twin_pipes crown=3.5 spacing=1.8"]
+        sys.exit("\n".join(sentences))
+    return list(variants.values()), bad
 
 
 def rules(variants):
@@ -73,7 +89,7 @@ def rules(variants):
         geo = " ".join(f"--geo {name}={written(value)}" for name, value in v.values.items())
         text += f"{mesh} {summary}: geo := {geo}\n"
         text += f"{mesh} {summary}: case := {v.case_file}\n"
-        text += f"{mesh}: {v.script()} {v.case_file}\n{summary}: {v.case_file}\n"
+        text += f"{mesh}: {v.script} {v.case_file}\n{summary}: {v.case_file}\n"
     return text
 
 
@@ -118,15 +134,17 @@ def table(variants):
 
 def main():
     if len(sys.argv) == 3 and sys.argv[1] == "rules":
-        print(rules(read(sys.argv[2])), end="")
+        print(rules(read(sys.argv[2])[0]), end="")
     elif len(sys.argv) == 4 and sys.argv[1] == "table":
-        variants = read(sys.argv[2])
+        variants, bad = read(sys.argv[2])
         text, missing = table(variants)
         pathlib.Path(sys.argv[3]).parent.mkdir(exist_ok=True)
         pathlib.Path(sys.argv[3]).write_text(text)
         for r in missing:
             print(f"{r['variant']}: {r['status']}", file=sys.stderr)
         print(f"{len(variants) - len(missing)} of {len(variants)} variants are in {sys.argv[3]}.")
+        if bad:
+            sys.exit("\n".join(bad))
     else:
         sys.exit(__doc__)
 
