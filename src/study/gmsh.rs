@@ -42,8 +42,13 @@ impl Gmsh {
             let file = Path::new(chosen);
             let found =
                 if file.components().count() == 1 { on_path(chosen) } else { file.is_file().then(|| file.into()) };
-            let missing =
-                || Error::input(format!("{VARIABLE} is \"{}\", but there is no such program", file.display()));
+            let missing = || {
+                Error::input(format!(
+                    "{VARIABLE} is \"{}\", but there is no such program: set it to the path of gmsh, \
+                                     or unset it, and gmsh is looked for on PATH and in .venv",
+                    file.display()
+                ))
+            };
             return found.map(Gmsh::at).ok_or_else(missing);
         }
         let environments = folders.iter().flat_map(|f| f.ancestors()).map(|f| f.join(".venv/bin/gmsh"));
@@ -126,12 +131,20 @@ fn messages(text: &str, level: &str, script: &Path) -> Vec<String> {
             continue;
         };
         let message = folder.iter().fold(message.trim().to_owned(), |m, f| m.replace(f, ""));
-        let is_rule = message.starts_with("-----") || message.starts_with("Mesh generation error summary");
-        if !is_rule && !message.is_empty() && !messages.contains(&message) {
+        if !is_summary(&message) && !message.is_empty() && !messages.contains(&message) {
             messages.push(message);
         }
     }
     messages
+}
+
+/// Lines of the summary that gmsh closes with, which only counts what it has said: `1 warning`, `0 errors`.
+fn is_summary(message: &str) -> bool {
+    let counts = |rest: &str| ["warning", "warnings", "error", "errors"].contains(&rest);
+    message.starts_with("-----")
+        || message.starts_with("Mesh generation error summary")
+        || message.starts_with("Check the full log")
+        || message.split_once(' ').is_some_and(|(n, rest)| n.parse::<usize>().is_ok() && counts(rest.trim()))
 }
 
 /// From `... [Gmsh 4.15.2, 1 node, max. 1 thread]`.

@@ -223,5 +223,9 @@ fn replace(file: &Path, content: &[u8]) -> Result<()> {
 
 fn not_writable(place: &Path, e: &std::io::Error) -> Error {
     let place = if place.as_os_str().is_empty() { Path::new(".") } else { place };
-    Error::input(format!("{} cannot be written to: {e}", place.display()))
+    Error::input(format!(
+        "{} cannot be written to: {e}; meshes lie under the current folder: run in one that can be written, or give a mesh by \
+         --mesh FILE.msh",
+        place.display()
+    ))
 }
