@@ -68,6 +68,17 @@ fn a_bad_case_file_is_refused_with_its_place() {
             ("axis z", "block.json --set supports.base=[\"z\"]", &["supports.base[0]", "\"z\"", "x, y"]),
             ("two probes of one name", "block.json --set probes=[\"P\",\"P\"]", &["probes[1]", "\"P\"", "already"]),
             ("a probe without a name", "block.json --set probes=[\"\"]", &["probes[0]", "column"]),
+            (
+                "hht and newmark",
+                "block.json --set time.hht=-0.1 --set time.newmark={}",
+                &["time.hht", "leave time.newmark out"],
+            ),
+            ("a script for a case", "block.geo", &["block.geo is a geometry", "\"script\"", "case"]),
+            (
+                "a material that the case has not",
+                "block.json --set materials.gruond.young=1",
+                &["materials.gruond", "did you mean \"ground\"?", "body, ground"],
+            ),
             ("no geometry", "block.json --set geometry=null", &["block.json", "\"geometry\"", "--mesh"]),
             ("empty geometry", "block.json --set geometry={}", &["geometry", "\"script\"", "\"mesh\""]),
         ],
@@ -109,6 +120,55 @@ fn a_bad_mesh_is_refused_with_its_place() {
             ("a mesh without names", "block.json --mesh no_groups.msh", &["physical_2_1"]),
         ],
     );
+}
+
+/// The block with one element of second order: its type 8 (3-node line) or 16 (8-node quadrangle) and mid-side nodes.
+fn with_mid_sides(element: &str, second_order: &str, mid_sides: &[[f64; 2]]) -> String {
+    let mesh = block_msh();
+    let nodes: String = mid_sides.iter().zip(37..).map(|([x, y], tag)| format!("{tag} {x} {y} 0\n")).collect();
+    let count = 36 + mid_sides.len();
+    let mixed = mesh.replace(element, second_order).replace("$Nodes\n36\n", &format!("$Nodes\n{count}\n"));
+    let mixed = mixed.replace("$EndNodes", &(nodes + "$EndNodes"));
+    assert_ne!(mesh.replace("$Nodes\n36\n", ""), mixed.replace(&format!("$Nodes\n{count}\n"), ""));
+    mixed
+}
+
+/// Elements of first and second order are not joined at the mid-side nodes: loads on a 3-node line beside 4-node
+/// quadrangles act on nodes that nothing else has, and an 8-node one overlaps its neighbours or gapes.
+#[test]
+fn elements_of_first_and_second_order_side_by_side_are_refused_with_their_groups_and_places() {
+    let bench = Bench::new("orders");
+    bench.write("load.msh", with_mid_sides(" 1 2 5 1 31 32\n", " 8 2 5 1 31 32 37\n", &[[0.5, 5.]]));
+    bench.write("seam.msh", with_mid_sides(" 1 2 3 1 15 16\n", " 8 2 3 1 15 16 37\n", &[[2.5, 2.]]));
+    let mids = [[0.5, 0.], [1., 0.5], [0.5, 1.], [0., 0.5]];
+    bench.write("face.msh", with_mid_sides(" 3 2 1 1 1 2 8 7\n", " 16 2 1 1 1 2 8 7 37 38 39 40\n", &mids));
+    // the mid-side node is a corner of its neighbours
+    bench.write("corner.msh", with_mid_sides(" 1 2 5 1 31 32\n", " 8 2 5 1 31 33 32\n", &[]));
+    all_refuse(
+        &bench,
+        &[
+            (
+                "a load's line",
+                "block.json --mesh load.msh",
+                &[
+                    "load.msh",
+                    "3-node element 4 of \"top\"",
+                    "4-node",
+                    "\"ground\"",
+                    "(0.5000, 5.0000)",
+                    "ElementOrder",
+                ],
+            ),
+            (
+                "an interface's line",
+                "block.json --mesh seam.msh",
+                &["3-node element 13 of \"interface\"", "order are mixed"],
+            ),
+            ("a face", "block.json --mesh face.msh", &["8-node element", "of \"ground\"", "(0.5000, 0.5000)", "mixed"]),
+            ("a corner", "block.json --mesh corner.msh", &["3-node element 4 of \"top\"", "mixed"]),
+        ],
+    );
+    refused("the mesh alone", &bench.run_line("check face.msh"), &["8-node element", "mixed"]);
 }
 
 /// A tetrahedron alone, in the volume group "rock".
@@ -176,6 +236,16 @@ fn names_that_do_not_fit_the_mesh_are_refused_with_those_that_exist() {
                 "block.json --set interfaces.ground={\"body\":\"body\",\"thickness\":0.01}",
                 &["interface \"ground\"", "group of curves", "surfaces"],
             ),
+            (
+                "a probe far outside",
+                "block.json --set probes=[{\"name\":\"f\",\"at\":[9,5]}]",
+                &["\"f\" at (9, 5) m", "outside", "(5.0000, 5.0000) m, is 4 m away", "x from 0 to 5 m"],
+            ),
+            (
+                "initial motions that differ",
+                "block.json --set initial={\"base\":{\"velocity\":[1,0]},\"ground\":{}}",
+                &["\"base\" and \"ground\"", "(0.0000, 0.0000) m", "velocity", "[1.0, 0.0]", "[0.0, 0.0]"],
+            ),
             ("interface with an end", "block.json --mesh gap.msh", &["interface \"interface\"", "ends at", "\"body\""]),
             (
                 "interface without friction",
@@ -193,7 +263,8 @@ fn a_run_that_cannot_begin_says_why() {
     bench.write("no_script.json", CASE.replace("\"mesh\": \"block.msh\"", "\"script\": \"nowhere.geo\""));
     bench.write("script.json", CASE.replace("\"mesh\": \"block.msh\"", "\"script\": \"block.geo\""));
     bench.write("block.geo", "DefineConstant[ width = 5 ];\n");
-    let rows: [Row; 17] = [
+    let rows: [Row; 23] = [
+        ("a mesh for a case", "run block.msh", &["block.msh is a mesh", "CASE.json --mesh block.msh"]),
         ("too few modes", "run block.json --set damping.modes=[1,9999]", &["damping.modes", "9999", "68 modes"]),
         ("all held", "run block.json --set supports.ground=[\"x\",\"y\"] --bonded", &["nothing can move"]),
         ("--set without =", "run block.json --set time", &["--set", "\"time\"", "PATH=VALUE"]),
@@ -209,6 +280,31 @@ fn a_run_that_cannot_begin_says_why() {
         ("--geo of nothing", "run script.json --geo =1", &["width"]),
         ("--geo unknown", "run script.json --geo widht=1", &["\"widht\"", "width"]),
         ("missing script", "run no_script.json", &["nowhere.geo"]),
+        (
+            "initial displacement whose energy is no number",
+            "run block.json --set initial={\"body\":{\"displacement\":[0,1e200]}}",
+            &["t = 0", "too large", "initial motion"],
+        ),
+        (
+            "initial velocity beyond numbers, no joints",
+            "run block.json --bonded --set initial={\"body\":{\"velocity\":[0,1e308]}}",
+            &["t = 0", "too large", "initial motion"],
+        ),
+        (
+            "static, nothing held in y",
+            "run block.json --set analysis=static --set supports={\"base\":[\"x\"]}",
+            &["nothing holds \"body\", \"ground\"", "in y", "supports"],
+        ),
+        (
+            "static, free to turn",
+            "run block.json --set analysis=static --set supports={\"Q\":[\"x\",\"y\"]}",
+            &["nothing holds", "against turning"],
+        ),
+        (
+            "gravity, nothing held",
+            "run block.json --set gravity=9.81 --set damping=null --set supports={}",
+            &["nothing holds", "in x and y"],
+        ),
         ("gmsh not found", "run script.json", &["gmsh", "PATH", "install", "CORALPIPE_GMSH"]),
         ("gmsh not found by mesh", "mesh script.json", &["gmsh", "PATH", "install", "CORALPIPE_GMSH"]),
     ];
@@ -263,7 +359,8 @@ fn usage_errors_end_with_2() {
 #[test]
 fn what_is_odd_but_has_a_meaning_runs() {
     let bench = Bench::new("odd");
-    let rows: [Row; 13] = [
+    bench.write("triangles.msh", triangles());
+    let rows: [Row; 20] = [
         (
             "unused group",
             "run block.json --set supports={\"top\":[\"x\",\"y\"]}",
@@ -280,7 +377,38 @@ fn what_is_odd_but_has_a_meaning_runs() {
             &["\"i\" is not used"],
         ),
         ("end not a multiple of the step", "run block.json --set time.end=10.2ms", &["time.end", "0.01 s is used"]),
-        ("a probe far away", "run block.json --set probes=[{\"name\":\"f\",\"at\":[9,5]}]", &["\"f\"", "4.000 m away"]),
+        (
+            "a probe beside the mesh",
+            "run block.json --set probes=[{\"name\":\"f\",\"at\":[5.5,5]}]",
+            &["\"f\"", "0.500 m away"],
+        ),
+        (
+            "static with keys of motion",
+            "run block.json --set analysis=static --set time.hht=-0.1 --set mass=lumped",
+            &["static", "time.hht, mass, damping has no effect"],
+        ),
+        (
+            "b_bar without its elements",
+            "run block.json --mesh triangles.msh --set elements.quad4=b_bar",
+            &["b_bar", "no effect"],
+        ),
+        ("initial motion of nothing", "run block.json --set initial={\"body\":{}}", &["initial.body", "neither"]),
+        (
+            "initial motion of what is held",
+            "run block.json --set initial={\"base\":{\"velocity\":[0,1]}}",
+            &["initial.base", "hold 6 of its nodes", "(0.0000, 0.0000)"],
+        ),
+        (
+            "large motion",
+            "run block.json --set loads.top.pressure.peak=1GPa",
+            &["turns or strains by", "taken as small"],
+        ),
+        (
+            "large jumps",
+            "run block.json --set interfaces.interface.gap=1m --set initial={\"body\":{\"velocity\":[20,0]}}",
+            &["% of the joint's length"],
+        ),
+        ("a key taken out", "run block.json --set time.newmark=null --set output=null", &[]),
         ("no probes", "run block.json --set probes=[]", &[]),
         ("no loads", "run block.json --set loads={}", &["top"]),
         ("one step", "run block.json --set time.end=0.5ms --set output.every=0.5ms", &[]),
@@ -295,6 +423,91 @@ fn what_is_odd_but_has_a_meaning_runs() {
         assert_eq!(code, Some(0), "{what}: {stderr}");
         words.iter().for_each(|word| assert!(stderr.contains(word), "{what}: no {word:?} in: {stderr}"));
     }
+}
+
+/// The squares cut along a diagonal.
+fn triangles() -> String {
+    let (head, elements) = block_msh().split_once("$Elements\n").map(|(a, b)| (a.to_string(), b.to_string())).unwrap();
+    let mut lines = Vec::new();
+    for line in elements.lines().skip(1).take_while(|l| !l.starts_with('$')) {
+        let words: Vec<&str> = line.split(' ').collect();
+        match (words[1], &words[5..]) {
+            ("3", [a, b, c, d]) => {
+                lines.push(format!("2 2 {} 1 {a} {b} {c}", words[3]));
+                lines.push(format!("2 2 {} 1 {a} {c} {d}", words[3]));
+            }
+            _ => lines.push(words[1..].join(" ")),
+        }
+    }
+    let numbered: String = lines.iter().zip(1..).map(|(line, n)| format!("{n} {line}\n")).collect();
+    format!("{head}$Elements\n{}\n{numbered}$EndElements\n", lines.len())
+}
+
+/// Statics needs no natural mode: the damping of a case that also runs dynamically does not stop it.
+#[test]
+fn a_static_run_computes_no_modes_and_stands_on_its_base() {
+    let bench = Bench::new("static");
+    let outcome = bench.run_line("run block.json --set analysis=static --set damping.modes=[1,9999]");
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    assert!(!outcome.stdout.contains("frequencies"), "{}", outcome.stdout);
+}
+
+/// A slip such as `--out /` must not write among other people's files.
+#[test]
+fn a_folder_that_holds_other_things_is_refused_and_not_touched() {
+    let bench = Bench::new("foreign");
+    let there = || {
+        let mut names: Vec<_> = std::fs::read_dir(&bench.folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+        names.retain(|n| !n.to_string_lossy().starts_with(".std"));
+        names.sort();
+        names
+    };
+    let before = there();
+    for line in ["run block.json --out .", "modes block.json --out .", "run block.json --out /"] {
+        refused(line, &bench.run_line(line), &["no folder of results", "holds", "--out"]);
+    }
+    assert_eq!(there(), before);
+    // what a batch or `modes` has left is no stranger
+    std::fs::create_dir(bench.path("new")).unwrap();
+    bench.write("new/batch.log", "");
+    for line in ["modes block.json --out new", "run block.json --out new", "run block.json --out new"] {
+        let outcome = bench.run_line(line);
+        assert_eq!(outcome.code, Some(0), "{line}: {}", outcome.stderr);
+    }
+}
+
+#[test]
+fn results_of_other_options_are_named_before_they_are_replaced() {
+    let bench = Bench::new("replaced");
+    assert!(!bench.run_line("run block.json").stderr.contains("replaces"));
+    assert!(!bench.run_line("run block.json").stderr.contains("replaces"));
+    let other = bench.run_line("run block.json --set time.end=5ms").stderr;
+    for words in ["output/block are of another run (mesh block.msh)", "--set time.end=5ms) replaces", "--out DIR"] {
+        assert!(other.contains(words), "{words}: {other}");
+    }
+}
+
+/// Triangles of 0.006 degrees, faces in no group, groups without elements, elements that stand twice.
+#[test]
+fn a_mesh_alone_is_warned_of_as_in_a_case() {
+    let bench = Bench::new("alone");
+    let flat = triangles().replace("\n8 1 1 0\n", "\n8 0.5 0.00005 0\n");
+    bench.write("flat.msh", flat);
+    let told = bench.run_line("check flat.msh").stdout;
+    assert!(told.contains("smallest angle, 5.7e-3 degrees at (0.5000, 0.0000) m"), "{told}");
+    let mesh = block_msh().replace(" 3 2 1 1 5 6 12 11\n", " 3 0 5 6 12 11\n");
+    let mesh = mesh.replace("\n7\n2 1", "\n8\n1 9 \"nothing\"\n2 1").replace("$Elements\n41\n", "$Elements\n42\n");
+    let mesh = mesh.replace("$EndElements", "99 3 2 1 1 29 30 36 35\n$EndElements");
+    bench.write("bad.msh", mesh);
+    let Outcome { code, stdout, stderr } = bench.run_line("check bad.msh");
+    assert_eq!(code, Some(0), "{stderr}");
+    for words in
+        ["1 surface elements belong to no", "(4.5000, 0.5000)", "any element: nothing", "1 elements stand twice"]
+    {
+        assert!(stdout.contains(&words), "{words}: {stdout}");
+    }
+    let numbers = bench.run_line("check block.json --set time.step=0.3ms --set time.end=0.9ms").stdout;
+    assert!(numbers.contains("3 steps of 0.0003 s to 0.0009 s"), "{numbers}");
 }
 
 /// Nothing holds the block: the impulse p T/2 * 5 m moves its 24 m2 of 2000 and 1 m2 of 7800 kg/m3 downwards.
@@ -344,7 +557,7 @@ fn names_that_are_no_text_and_names_xml_must_escape_give_a_series_that_opens() {
 fn results_go_to_stdout_and_all_else_to_stderr() {
     let bench = Bench::new("streams");
     let Outcome { code, stdout, stderr } =
-        bench.run_line("run block.json --set probes=[{\"name\":\"f\",\"at\":[9,5]}]");
+        bench.run_line("run block.json --set probes=[{\"name\":\"f\",\"at\":[5.5,5]}]");
     assert_eq!(code, Some(0), "{stderr}");
     assert!(stdout.contains("frequencies") && stdout.contains("results in output/block\n"), "{stdout}");
     for told in ["mesh block.msh", "warning: ", "step 20 of 20"] {

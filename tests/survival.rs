@@ -134,6 +134,25 @@ fn numbers_beyond_floating_point_end_the_run_and_are_not_written() {
     assert!(too_exact.stderr.contains("take a larger newton.tolerance"), "{}", too_exact.stderr);
 }
 
+/// The folder is locked by the system, so that a killed run leaves no lock behind.
+#[test]
+fn two_runs_never_write_into_one_folder() {
+    let bench = Bench::new("two");
+    let endless = ["run", "block.json", "--quiet", "--set", "time.end=1000 s", "--set", "output.every=1 s"];
+    let mut first = bench.program(&endless).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let started = Instant::now();
+    while !bench.path("output/block/run.sta").exists() && started.elapsed() < Duration::from_secs(30) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let second = bench.run_line("run block.json");
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert_eq!(second.code, Some(1), "{}", second.stderr);
+    assert!(second.stderr.contains("another run is writing into output/block"), "{}", second.stderr);
+    assert_eq!(bench.run_line("run block.json").code, Some(0));
+    assert_done(&bench.path("output/block"), 11, 20);
+}
+
 #[test]
 fn finished_results_survive_runs_that_fail_and_end_with_one_that_is_done() {
     let bench = Bench::new("earlier");
@@ -183,12 +202,20 @@ fn results_killed_on_their_way_to_previous_are_picked_up() {
 #[test]
 fn what_a_run_did_not_write_is_not_its_to_clear() {
     let bench = Bench::new("foreign");
-    for (file, content) in [("own/frames/photo.png", "mine"), ("own/summary.json.bak", "mine"), ("own/notes", "mine")] {
+    for file in ["strange/frames/photo.png", "strange/summary.json"] {
         fs::create_dir_all(bench.path(file).parent().unwrap()).unwrap();
-        bench.write(file, content);
+        bench.write(file, "\"mine\"");
     }
+    assert_eq!(bench.run_line("run block.json --out strange").code, Some(1));
+    for file in ["strange/frames/photo.png", "strange/summary.json"] {
+        assert_eq!(fs::read_to_string(bench.path(file)).unwrap(), "\"mine\"", "{file}");
+    }
+    // notes beside results
     assert_eq!(bench.run_line("run block.json --out own").code, Some(0));
-    for file in ["own/frames/photo.png", "own/summary.json.bak", "own/notes"] {
+    bench.write("own/summary.json.bak", "mine");
+    bench.write("own/notes", "mine");
+    assert_eq!(bench.run_line("run block.json --out own").code, Some(0));
+    for file in ["own/summary.json.bak", "own/notes"] {
         assert_eq!(fs::read_to_string(bench.path(file)).unwrap(), "mine", "{file}");
     }
     // another case in the same folder leaves no series without frames

@@ -1,9 +1,10 @@
 //! Curves that let waves out: which they are, where they must not be, and how they hold the ground while nothing moves.
 
-use super::boundary::{Border, Sides, border};
+use super::boundary::{Border, border};
 use super::case::{Boundary, Case};
 use super::mesh::Mesh;
 use super::resolve::{Load, Model, Target};
+use super::sides::Sides;
 use crate::physics::material::Material;
 use crate::{Error, Result};
 

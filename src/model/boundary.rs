@@ -1,9 +1,9 @@
-//! The sides of faces, and named curves on the border of the mesh.
+//! Named curves on the border of the mesh.
 
 use super::mesh::{Group, Mesh};
+use super::sides::{Sides, edge};
 use crate::physics::shape::Shape;
 use crate::{Error, Result};
-use std::collections::HashMap;
 
 /// A line on the border of the mesh, with the solid on its left.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,25 +27,11 @@ impl Border {
     }
 }
 
-/// Every side of every face with that face, running anticlockwise, by its corners; twice where two faces share it.
-pub type Sides = HashMap<(usize, usize), Vec<(usize, Vec<usize>)>>;
-
-pub fn solid_sides(mesh: &Mesh) -> Sides {
-    let mut sides = Sides::new();
-    for (cell, face) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
-        for side in face.shape.sides() {
-            let nodes: Vec<usize> = side.iter().map(|&local| face.nodes[local]).collect();
-            sides.entry((nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).or_default().push((cell, nodes));
-        }
-    }
-    sides
-}
-
 /// The group's lines with the solid on their left, and that solid's face; each must have a face on exactly one side.
 pub fn border(mesh: &Mesh, group: &Group, sides: &Sides) -> Result<Vec<(Border, usize)>> {
     let oriented = |&cell: &usize| {
         let nodes = &mesh.cells[cell].nodes;
-        match sides.get(&(nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))).map(Vec::as_slice) {
+        match sides.get(&edge(nodes)).map(Vec::as_slice) {
             Some([(face, side)]) => Ok((Border { shape: mesh.cells[cell].shape, nodes: side.clone() }, *face)),
             found => Err(Error::input(format!(
                 "load or boundary \"{}\": its line at {} has {} on its sides; it must lie on the border of the mesh",

@@ -42,6 +42,8 @@ pub struct Mesh {
     pub groups: Vec<Group>,
     /// faces that ran clockwise in the file and were turned
     pub turned: usize,
+    /// elements that stood more than once in a group of the file, and stand once here
+    pub dropped: usize,
 }
 
 impl Mesh {
@@ -82,6 +84,12 @@ impl Mesh {
                 KIND[dimension], self.name, KIND[group.dimension]
             ))),
         }
+    }
+
+    /// The groups a cell belongs to.
+    pub fn groups_of(&self, cell: usize) -> impl Iterator<Item = &Group> {
+        let dimension = self.cells[cell].shape.dimension();
+        self.groups.iter().filter(move |g| g.dimension == dimension && g.cells.binary_search(&cell).is_ok())
     }
 
     /// Where a cell lies, for messages.

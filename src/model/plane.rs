@@ -1,18 +1,18 @@
 //! From what a mesh file says to the plane mesh of the model.
 
-use super::mesh::{Cell, Group, Mesh, Shape};
-use super::msh::{self, Block, Msh, Node, PhysicalName};
+use super::groups::{Members, name_of, named_groups};
+use super::mesh::{Cell, Mesh, Shape};
+use super::msh::{self, Block, Msh, Node};
+use super::sides::refuse_unlike_sides;
+use super::twins::Twins;
 use crate::{Error, Result};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::path::Path;
 
 /// A face is degenerate if its area is below this part of its longest side or diagonal squared.
 const DEGENERATE: f64 = 1e-12;
 /// A mesh is plane if its z vary by less than this part of its extent in x and y.
 const FLAT: f64 = 1e-6;
-
-/// (dimension, tag) of a physical group -> its cells.
-type Members = BTreeMap<(usize, i64), Vec<usize>>;
 
 impl Mesh {
     /// Reads a mesh file; see [`msh::read`] and [`Mesh::from_msh`].
@@ -26,7 +26,7 @@ impl Mesh {
     /// cell stands once, faces run anticlockwise. Groups without a name are called `physical_DIMENSION_TAG`.
     ///
     /// Errors: no faces, a shape the solver does not know, nodes that are missing or not in one plane z = constant,
-    /// a cell without extent, two groups of one name.
+    /// a cell without extent, two groups of one name, elements of first and second order side by side.
     pub fn from_msh(msh: &Msh, name: &str) -> Result<Mesh> {
         let kept: Vec<&Block> = msh.blocks.iter().filter(|b| is_kept(b)).collect();
         let shapes: Vec<Shape> = kept.iter().map(|b| shape_of(b, msh, name)).collect::<Result<_>>()?;
@@ -41,17 +41,21 @@ impl Mesh {
         let (mut mesh, new_index) = points_of(&msh.nodes, &used, name);
         let mut members = Members::new();
         let mut twins = Twins::new(mesh.points.len());
+        let mut tags = Vec::new();
         for ((block, shape), old_nodes) in kept.iter().zip(shapes).zip(nodes) {
             for (nodes, &tag) in old_nodes.chunks_exact(shape.node_count()).zip(&block.element_tags) {
                 let nodes = nodes.iter().map(|&old| new_index[old]).collect();
                 let cell = mesh.sound(Cell { shape, nodes }, tag)?;
-                let id = twins.find(&cell, &mesh.cells).unwrap_or_else(|| mesh.add(cell, &mut twins));
+                let twin = twins.find(&cell, &mesh.cells);
+                tags.extend(twin.is_none().then_some(tag));
+                let id = twin.unwrap_or_else(|| mesh.add(cell, &mut twins));
                 for physical in &block.physicals {
                     members.entry((shape.dimension(), physical.abs())).or_default().push(id);
                 }
             }
         }
-        mesh.groups = named_groups(members, &msh.names, name)?;
+        (mesh.groups, mesh.dropped) = named_groups(members, &msh.names, name)?;
+        refuse_unlike_sides(&mesh, &tags)?;
         Ok(mesh)
     }
 
@@ -200,73 +204,4 @@ fn turned(face: &Cell) -> Cell {
     let (corners, mids) = face.nodes.split_at(face.shape.corner_count());
     let nodes = corners[..1].iter().chain(corners[1..].iter().rev()).chain(mids.iter().rev());
     Cell { shape: face.shape, nodes: nodes.copied().collect() }
-}
-
-/// Finds a cell that has the same nodes as another: those that share their smallest node are chained.
-struct Twins {
-    /// by smallest node: the last cell that has it
-    last: Vec<usize>,
-    /// by cell: the one before it in the chain
-    before: Vec<usize>,
-}
-
-impl Twins {
-    const NONE: usize = usize::MAX;
-
-    fn new(points: usize) -> Twins {
-        Twins { last: vec![Self::NONE; points], before: Vec::new() }
-    }
-
-    fn smallest(cell: &Cell) -> usize {
-        cell.nodes.iter().copied().min().expect("a cell has nodes")
-    }
-
-    fn find(&self, cell: &Cell, cells: &[Cell]) -> Option<usize> {
-        let mut id = self.last[Self::smallest(cell)];
-        while id != Self::NONE {
-            let other = &cells[id];
-            if other.shape == cell.shape && cell.nodes.iter().all(|n| other.nodes.contains(n)) {
-                return Some(id);
-            }
-            id = self.before[id];
-        }
-        None
-    }
-
-    /// Chains the last of `cells`.
-    fn add(&mut self, cells: &[Cell]) {
-        let id = self.before.len();
-        self.before.push(std::mem::replace(&mut self.last[Self::smallest(&cells[id])], id));
-    }
-}
-
-fn name_of(dimension: usize, tag: i64, names: &[PhysicalName]) -> String {
-    match names.iter().find(|n| (n.dimension, n.tag) == (dimension, tag)) {
-        Some(named) => named.name.clone(),
-        None => format!("physical_{dimension}_{tag}"),
-    }
-}
-
-fn named_groups(mut members: Members, names: &[PhysicalName], file: &str) -> Result<Vec<Group>> {
-    for named in names.iter().filter(|n| n.dimension <= 2) {
-        members.entry((named.dimension, named.tag)).or_default();
-    }
-    let mut groups: Vec<(i64, Group)> = Vec::with_capacity(members.len());
-    for ((dimension, tag), mut cells) in members {
-        cells.sort_unstable();
-        cells.dedup();
-        let name = name_of(dimension, tag, names);
-        if let Some((other, twin)) = groups.iter().find(|(_, g)| g.name == name) {
-            let what = |dimension: usize, tag: i64| format!("{} {tag}", ["point", "curve", "surface"][dimension]);
-            return Err(Error::input(format!(
-                "{file} has two physical groups called \"{name}\", {} and {}; give each its own name",
-                what(twin.dimension, *other),
-                what(dimension, tag)
-            )));
-        }
-        groups.push((tag, Group { name, dimension, cells }));
-    }
-    let mut groups: Vec<Group> = groups.into_iter().map(|(_, group)| group).collect();
-    groups.sort_by(|a, b| (a.dimension, &a.name).cmp(&(b.dimension, &b.name)));
-    Ok(groups)
 }

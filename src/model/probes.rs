@@ -2,6 +2,8 @@
 
 use super::case::{Case, Probe};
 use super::mesh::Mesh;
+use super::number::short;
+use super::quality;
 use crate::{Error, Result};
 
 /// A node whose motion is written at every step.
@@ -54,8 +56,19 @@ fn nearest_node(
     let distance = |&n: &usize| (mesh.points[n][0] - at[0]).hypot(mesh.points[n][1] - at[1]);
     let nearest = nodes.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let node = nearest.ok_or_else(|| Error::input(format!("probe \"{name}\": {} has no nodes", mesh.name)))?;
+    let [x, y] = mesh.points[node];
+    if distance(&node) > longest_side_at(mesh, node) {
+        return Err(Error::input(format!(
+            "probe \"{name}\" at ({}, {}) m lies outside of {}: the nearest node, ({x:.4}, {y:.4}) m, is {} m away, farther \
+             than an element is long; the mesh spans {}",
+            at[0],
+            at[1],
+            body.map_or(mesh.name.clone(), |body| format!("\"{body}\"")),
+            short(distance(&node)),
+            extent(mesh)
+        )));
+    }
     if distance(&node) > 1e-9 {
-        let [x, y] = mesh.points[node];
         warnings.push(format!(
             "probe \"{name}\" at ({}, {}) m is taken at the nearest node, ({x:.4}, {y:.4}) m, {:.3} m away",
             at[0],
@@ -64,4 +77,20 @@ fn nearest_node(
         ));
     }
     Ok(node)
+}
+
+/// Of the elements round a node [m].
+fn longest_side_at(mesh: &Mesh, node: usize) -> f64 {
+    let round = mesh.cells.iter().filter(|c| c.shape.dimension() == 2 && c.nodes.contains(&node));
+    round.map(|face| quality::sides(mesh, face)[1]).fold(0., f64::max)
+}
+
+/// `x from 0 to 25 m, y from -15 to 0 m`
+fn extent(mesh: &Mesh) -> String {
+    let along = |i: usize, name: &str| {
+        let values = mesh.points.iter().map(|p| p[i]);
+        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
+        format!("{name} from {} to {} m", short(low), short(high))
+    };
+    format!("{}, {}", along(0, "x"), along(1, "y"))
 }

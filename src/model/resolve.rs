@@ -1,12 +1,15 @@
 //! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
 
 use super::absorbing::{Absorber, absorbers};
-use super::boundary::{Border, Sides, border, solid_sides};
+use super::boundary::{Border, border};
 use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
 use super::free_field::{FreeField, free_fields};
+use super::initial::{Initial, initial};
 use super::mesh::Mesh;
+use super::number::short;
 use super::probes::{NodeProbe, probes};
 use super::quality;
+use super::sides::{Sides, solid_sides};
 use super::split::{self, Joint, Pair, Seam};
 use super::sweep::Sweep;
 use crate::physics::joint::{Friction, JointLaw};
@@ -54,13 +57,6 @@ pub struct Model {
     pub start: Start,
     pub time: TimeGrid,
     pub warnings: Vec<String>,
-}
-
-/// Motion of the nodes at t = 0.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Initial {
-    pub displacement: Vec<[f64; 2]>,
-    pub velocity: Vec<[f64; 2]>,
 }
 
 /// Equal steps from t = 0.
@@ -272,19 +268,6 @@ fn supports(case: &Case, mesh: &Mesh) -> Result<Vec<[bool; 2]>> {
     Ok(fixed)
 }
 
-fn initial(case: &Case, mesh: &Mesh) -> Result<Initial> {
-    let zero = vec![[0.; 2]; mesh.points.len()];
-    let mut initial = Initial { displacement: zero.clone(), velocity: zero };
-    for (name, motion) in &case.initial {
-        let group = mesh.group(name).map_err(|e| Error::input(format!("initial: {e}")))?;
-        for node in mesh.nodes_of(group) {
-            initial.displacement[node] = motion.displacement.map(f64::from);
-            initial.velocity[node] = motion.velocity.map(f64::from);
-        }
-    }
-    Ok(initial)
-}
-
 fn loads(case: &Case, mesh: &Mesh, sides: &Sides) -> Result<Vec<Load>> {
     let load = |(name, load): (&str, &case::Load)| {
         let group = |dimension| mesh.group_of(name, dimension, "load");
@@ -334,7 +317,8 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
     let whole = |what: &str, span: f64, warnings: &mut Vec<String>| {
         let count = (span / step).round().max(1.);
         if (count * step / span - 1.).abs() > 1e-9 {
-            warnings.push(format!("{what} = {span} s is not a whole number of steps; {} s is used", count * step));
+            let (span, used) = (short(span), short(count * step));
+            warnings.push(format!("{what} = {span} s is not a whole number of steps; {used} s is used"));
         }
         count as usize
     };

@@ -4,6 +4,7 @@
 //! its own two elements, since a pipe may cross a layer boundary.
 
 use super::mesh::{Group, Mesh, Shape};
+use super::sides::{Edge, Sides, edge, solid_sides};
 use crate::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -42,15 +43,12 @@ pub struct Opened {
     pub joints: Vec<Joint>,
 }
 
-/// An edge by its two corner nodes, smaller first.
-type Edge = (usize, usize);
-
 /// Opens every seam of a conforming mesh.
 ///
 /// Errors name the group and the coordinates: a curve that is not the border between its body and something else, or one
 /// that ends while body and ground go on touching.
 pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
-    let faces_at = faces_at_edges(mesh);
+    let faces_at = solid_sides(mesh);
     let bodies = seams
         .iter()
         .map(|seam| Ok(group_of(mesh, seam, &seam.body)?.cells.iter().copied().collect()))
@@ -61,7 +59,7 @@ pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
     let mut opened = mesh.clone();
     let copies = copy_nodes(&mut opened, seams, &bodies, &lines);
     move_lines_and_points(mesh, &mut opened, &faces_at, &copies);
-    let (pairs, joints) = joints(mesh, &opened, &lines);
+    let (pairs, joints) = joints(mesh, &lines, &faces_at, &copies);
     Ok(Opened { mesh: opened, pairs, joints })
 }
 
@@ -77,26 +75,7 @@ struct BorderLine {
     body_cell: usize,
 }
 
-fn edge(a: usize, b: usize) -> Edge {
-    (a.min(b), a.max(b))
-}
-
-fn faces_at_edges(mesh: &Mesh) -> HashMap<Edge, Vec<usize>> {
-    let mut faces: HashMap<Edge, Vec<usize>> = HashMap::new();
-    for (c, cell) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
-        for side in cell.shape.sides() {
-            faces.entry(edge(cell.nodes[side[0]], cell.nodes[side[1]])).or_default().push(c);
-        }
-    }
-    faces
-}
-
-fn border_lines(
-    mesh: &Mesh,
-    seams: &[Seam],
-    bodies: &[BTreeSet<usize>],
-    faces_at: &HashMap<Edge, Vec<usize>>,
-) -> Result<Vec<BorderLine>> {
+fn border_lines(mesh: &Mesh, seams: &[Seam], bodies: &[BTreeSet<usize>], faces_at: &Sides) -> Result<Vec<BorderLine>> {
     let mut lines = Vec::new();
     for (seam, (Seam { curve, body }, faces)) in seams.iter().zip(bodies).enumerate() {
         let group = group_of(mesh, &seams[seam], curve)?;
@@ -108,8 +87,8 @@ fn border_lines(
         }
         for &cell in &group.cells {
             let nodes = &mesh.cells[cell].nodes;
-            let sides = faces_at.get(&edge(nodes[0], nodes[1])).map_or(&[][..], Vec::as_slice);
-            let (inside, outside): (Vec<usize>, Vec<usize>) = sides.iter().partition(|f| faces.contains(f));
+            let sides = faces_at.get(&edge(nodes)).into_iter().flatten().map(|&(face, _)| face);
+            let (inside, outside): (Vec<usize>, Vec<usize>) = sides.partition(|f| faces.contains(f));
             let (&[body_cell], &[ground_cell]) = (&inside[..], &outside[..]) else {
                 let [x, y] = mesh.points[nodes[0]];
                 return Err(Error::input(format!(
@@ -131,7 +110,7 @@ fn refuse_loose_ends(
     seams: &[Seam],
     bodies: &[BTreeSet<usize>],
     lines: &[BorderLine],
-    faces_at: &HashMap<Edge, Vec<usize>>,
+    faces_at: &Sides,
 ) -> Result<()> {
     let opened: HashMap<Edge, &str> =
         lines.iter().map(|l| (corner_edge(mesh, l.cell), seams[l.seam].body.as_str())).collect();
@@ -142,7 +121,7 @@ fn refuse_loose_ends(
     for (seam, faces) in seams.iter().zip(bodies) {
         let ends = touched.entry(&seam.body).or_default();
         let still_joined = faces_at.iter().find(|(edge, sides)| {
-            let split = sides.iter().filter(|f| faces.contains(f)).count();
+            let split = sides.iter().filter(|(f, _)| faces.contains(f)).count();
             split == 1
                 && sides.len() == 2
                 && opened.get(edge) != Some(&seam.body.as_str())
@@ -161,8 +140,7 @@ fn refuse_loose_ends(
 }
 
 fn corner_edge(mesh: &Mesh, line: usize) -> Edge {
-    let nodes = &mesh.cells[line].nodes;
-    edge(nodes[0], nodes[1])
+    edge(&mesh.cells[line].nodes)
 }
 
 /// For each face, what its nodes became.
@@ -195,7 +173,7 @@ fn copy_nodes(opened: &mut Mesh, seams: &[Seam], bodies: &[BTreeSet<usize>], lin
 }
 
 /// Lines of other groups follow the face they border; named points on a seam belong to the body.
-fn move_lines_and_points(mesh: &Mesh, opened: &mut Mesh, faces_at: &HashMap<Edge, Vec<usize>>, copies: &Copies) {
+fn move_lines_and_points(mesh: &Mesh, opened: &mut Mesh, faces_at: &Sides, copies: &Copies) {
     let body_node: HashMap<usize, usize> = copies.iter().map(|(&(_, node), &copy)| (node, copy)).collect();
     for (c, cell) in mesh.cells.iter().enumerate() {
         let follows = match cell.shape.dimension() {
@@ -204,59 +182,37 @@ fn move_lines_and_points(mesh: &Mesh, opened: &mut Mesh, faces_at: &HashMap<Edge
                 continue;
             }
             // The body's side where there are two, as for points.
-            1 => faces_at
-                .get(&edge(cell.nodes[0], cell.nodes[1]))
-                .and_then(|faces| faces.iter().find(|&&f| copies.contains_key(&(f, cell.nodes[0]))).or(faces.first())),
+            1 => faces_at.get(&edge(&cell.nodes)).and_then(|faces| {
+                faces.iter().find(|(f, _)| copies.contains_key(&(*f, cell.nodes[0]))).or(faces.first())
+            }),
             _ => None,
         };
-        if let Some(&face) = follows {
+        if let Some(&(face, _)) = follows {
             opened.cells[c].nodes = cell.nodes.iter().map(|&n| *copies.get(&(face, n)).unwrap_or(&n)).collect();
         }
     }
 }
 
-fn joints(mesh: &Mesh, opened: &Mesh, lines: &[BorderLine]) -> (Vec<Pair>, Vec<Joint>) {
+/// A joint for each line, between what its nodes became on the body's side and on the ground's.
+fn joints(mesh: &Mesh, lines: &[BorderLine], sides: &Sides, copies: &Copies) -> (Vec<Pair>, Vec<Joint>) {
     let mut index: HashMap<Pair, usize> = HashMap::new();
     let mut pairs = Vec::new();
     let mut joints = Vec::new();
-    for line in lines {
-        let shape = mesh.cells[line.cell].shape;
-        let body_side = side_along(mesh, line.body_cell, line.cell);
-        let ground_side = side_along(mesh, line.ground_cell, line.cell);
-        let nodes = body_side.iter().map(|&local| {
-            let node = mesh.cells[line.body_cell].nodes[local];
-            let across = ground_side
-                .iter()
-                .find(|&&g| mesh.cells[line.ground_cell].nodes[g] == node)
-                .expect("both faces hold the line's nodes");
-            Pair {
-                ground: opened.cells[line.ground_cell].nodes[*across],
-                body: opened.cells[line.body_cell].nodes[local],
-            }
-        });
+    let became = |face: usize, node: usize| *copies.get(&(face, node)).unwrap_or(&node);
+    for &BorderLine { seam, cell, ground_cell, body_cell } in lines {
+        let of_body = sides[&corner_edge(mesh, cell)].iter().find(|(face, _)| *face == body_cell);
+        let (_, nodes) = of_body.expect("the body's face was found by this edge");
         let numbers = nodes
-            .map(|pair| {
+            .iter()
+            .map(|&node| {
+                let pair = Pair { ground: became(ground_cell, node), body: became(body_cell, node) };
                 *index.entry(pair).or_insert_with(|| {
                     pairs.push(pair);
                     pairs.len() - 1
                 })
             })
             .collect();
-        joints.push(Joint {
-            seam: line.seam,
-            shape,
-            pairs: numbers,
-            ground_cell: line.ground_cell,
-            body_cell: line.body_cell,
-        });
+        joints.push(Joint { seam, shape: mesh.cells[cell].shape, pairs: numbers, ground_cell, body_cell });
     }
     (pairs, joints)
-}
-
-/// The side of a face that lies on the given line, as local node numbers.
-fn side_along(mesh: &Mesh, face: usize, line: usize) -> Vec<usize> {
-    let cell = &mesh.cells[face];
-    let wanted = corner_edge(mesh, line);
-    let along = |side: &Vec<usize>| edge(cell.nodes[side[0]], cell.nodes[side[1]]) == wanted;
-    cell.shape.sides().into_iter().find(along).expect("the face was found by this edge")
 }

@@ -4,12 +4,16 @@
 //! number of runs that fail, and a kill at any moment, of which the next run picks up the pieces.
 
 use super::file;
-use crate::Result;
+use crate::{Error, Result};
+use serde_json::Value;
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
 pub struct Folder {
     path: PathBuf,
     name: String,
+    /// the folder itself, locked for this process until it ends, however it ends; none where the disk knows no locks
+    _lock: Option<File>,
 }
 
 /// Its presence says that the run came to an end, its status to which.
@@ -19,6 +23,9 @@ pub const STATUS: &str = "run.sta";
 const PREVIOUS: &str = "previous";
 /// `previous/` while results are on their way there.
 const MOVING: &str = "previous.part";
+
+/// What may be in a folder before its first run: mode shapes, and the log of a batch.
+const BESIDE: [&str; 2] = ["modes", "batch.log"];
 
 /// How much the results in a folder are worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -33,9 +40,12 @@ enum Worth {
 
 impl Folder {
     /// Makes the folder and clears it of results: they go to `previous/`, unless better ones are there.
+    ///
+    /// Errors: it cannot be written, holds things that are no results, or another run writes into it.
     pub fn prepare(path: &Path, name: &str) -> Result<Folder> {
         file::create_folder(path)?;
-        let folder = Folder { path: path.into(), name: name.into() };
+        refuse_foreign(path)?;
+        let folder = Folder { path: path.into(), name: name.into(), _lock: lock(path)? };
         let (previous, moving) = (folder.file(PREVIOUS), folder.file(MOVING));
         let here = worth(path);
         if moving.exists() || (here > Worth::Nothing && here >= worth(&previous)) {
@@ -87,9 +97,51 @@ impl Folder {
     }
 }
 
+/// The summary of the last run that came to an end there.
+pub fn summary(folder: &Path) -> Option<Value> {
+    serde_json::from_slice(&std::fs::read(folder.join(SUMMARY)).ok()?).ok()
+}
+
+/// A folder that is not empty must show that its results are ours: else a slip such as `--out /` writes among other things.
+pub fn refuse_foreign(path: &Path) -> Result<()> {
+    let ours = |name: &str| path.join(name).exists();
+    if ours(STATUS)
+        || ours(PREVIOUS)
+        || ours(MOVING)
+        || summary(path).is_some_and(|s| s["inputs"]["coralpipe"].is_string())
+    {
+        return Ok(());
+    }
+    let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+    let mut foreign: Vec<String> = entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+    foreign.retain(|name| !BESIDE.contains(&name.as_str()));
+    foreign.sort();
+    let more = if foreign.len() > 4 { format!(" and {} more", foreign.len() - 4) } else { String::new() };
+    match foreign.is_empty() {
+        true => Ok(()),
+        false => Err(Error::input(format!(
+            "{} is no folder of results: it holds {}{more}; choose a new or an empty folder with --out",
+            path.display(),
+            foreign[..foreign.len().min(4)].join(", ")
+        ))),
+    }
+}
+
+/// Locks the folder, which leaves no file behind.
+fn lock(path: &Path) -> Result<Option<File>> {
+    let Ok(folder) = File::open(path) else { return Ok(None) };
+    match folder.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(Error::input(format!(
+            "another run is writing into {}: let it end, or choose another folder with --out",
+            path.display()
+        ))),
+        Err(TryLockError::Error(_)) => Ok(None),
+        Ok(()) => Ok(Some(folder)),
+    }
+}
+
 fn worth(folder: &Path) -> Worth {
-    let summary = std::fs::read(folder.join(SUMMARY)).ok();
-    match summary.and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok()) {
+    match summary(folder) {
         Some(summary) if summary["status"] == "done" => Worth::Done,
         Some(_) => Worth::Ended,
         None if folder.join(STATUS).exists() => Worth::CutShort,

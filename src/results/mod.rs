@@ -5,6 +5,7 @@ pub mod folder;
 pub mod frame;
 pub mod histories;
 pub mod hoop;
+pub mod motion;
 pub mod nodal;
 pub mod ring;
 pub mod ring_table;

@@ -1,7 +1,7 @@
 //! `summary.json`: what went in, what came out, what it cost.
 
 use crate::solve::energy::{Energies, Ledger};
-use crate::solve::interface::Interface;
+use crate::solve::interface::{Interface, JointPoint};
 use crate::solve::system::{Rayleigh, State};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -61,20 +61,23 @@ impl Summary {
     /// For the screen: frequencies, peaks, contact, energy, cost.
     pub fn table(&self) -> String {
         let frequencies: Vec<String> = self.frequencies_hz.iter().map(|f| format!("{f:.3}")).collect();
-        let mut text = format!("frequencies       {} Hz\n", frequencies.join("  "));
+        let mut text = match frequencies.is_empty() {
+            true => String::new(),
+            false => format!("frequencies       {} Hz\n", frequencies.join("  ")),
+        };
         for (probe, peaks) in &self.peaks {
             let peak = |component: &str, scale: f64, unit: &str| {
                 let of = |key: &str| peaks[component][key].as_f64().unwrap_or(f64::NAN);
-                format!("{component} {:9.4} {unit} at {:6.2} ms", scale * of("value"), 1e3 * of("time"))
+                format!("{component} {} {unit} at {:6.2} ms", readable(scale * of("value")), 1e3 * of("time"))
             };
             let [x, y] = [peak("ux", 1e3, "mm"), peak("uy", 1e3, "mm")];
             text += &format!("peak {probe:<12} {x}   {y}   {}\n", peak("ay", 1., "m/s2"));
         }
         let c = &self.contact;
         text += &format!(
-            "contact           gap {:.4} mm, slip {:.4} mm, at most {} points open and {} slipping\n",
-            1e3 * c.max_open,
-            1e3 * c.max_slip,
+            "contact           gap {} mm, slip {} mm, at most {} points open and {} slipping\n",
+            readable(1e3 * c.max_open).trim_start(),
+            readable(1e3 * c.max_slip).trim_start(),
             c.max_open_points,
             c.max_slipping_points
         );
@@ -84,6 +87,15 @@ impl Summary {
             "{} steps, {} iterations in {:.2} s (mesh {:.2}, set-up {:.2}, factor {:.2}, frames {:.2}; all {:.2} s)\n",
             self.steps, self.iterations, t.steps_s, t.mesh_s, t.setup_s, t.factor_s, t.output_s, t.total_s
         )
+    }
+}
+
+/// In nine places: four decimals, or three digits where those would show nothing.
+fn readable(value: f64) -> String {
+    match value.abs() {
+        0. => format!("{:9.4}", 0.),
+        size if (0.01..1e4).contains(&size) => format!("{value:9.4}"),
+        _ => format!("{value:9.2e}"),
     }
 }
 
@@ -141,10 +153,15 @@ pub struct ContactRecord {
     pub cut_steps: usize,
 }
 
-/// How many joint points are open, and how many slip.
-pub fn open_and_slipping(state: &State) -> (usize, usize) {
-    let open = state.joints.iter().filter(|j| j.status.is_open()).count();
-    let slipping = state.joints.iter().filter(|j| j.status.is_slipping()).count();
+/// Gaps and slips below the size of an atom [m] are round-off, as before a wave arrives.
+const ATOM: f64 = 1e-10;
+
+/// How many joint points are open, and how many slip, by more than an atom.
+pub fn open_and_slipping(interface: &Interface, state: &State, jumps: &[f64]) -> (usize, usize) {
+    let points = || interface.points.iter().zip(&state.joints);
+    let gap = |p: &JointPoint| interface.local(p, jumps)[1] + p.law.gap;
+    let open = points().filter(|(p, j)| j.status.is_open() && gap(p) > ATOM).count();
+    let slipping = points().filter(|(_, j)| j.status.is_slipping() && j.slip.abs() > ATOM).count();
     (open, slipping)
 }
 
@@ -154,7 +171,7 @@ impl ContactRecord {
         let gaps = points.clone().map(|(p, _)| interface.local(p, jumps)[1] + p.law.gap);
         let slips = points.filter(|(_, j)| !j.status.is_open()).map(|(_, j)| j.slip.abs());
         let changes = old.joints.iter().zip(&new.joints).filter(|(o, n)| o.status != n.status).count();
-        let (open, slipping) = open_and_slipping(new);
+        let (open, slipping) = open_and_slipping(interface, new, jumps);
         ContactRecord {
             max_open: gaps.fold(self.max_open, f64::max),
             max_slip: slips.fold(self.max_slip, f64::max),

@@ -80,7 +80,7 @@ fn report(explosion: &Explosion, distance: f64, p: &Parameters, pulse: &Pulse) -
     text += &line("straight line: tangent at t = 0", format!("zero at {tangent}"));
     text += &line("straight line: equal impulse", format!("zero at {equal_impulse}"));
     text += &p.notes.iter().map(|note| format!("  note: {note}\n")).collect::<String>();
-    text + &format!("\nwhat acts, the {} pressure [Pa]: {}\n", explosion.wave.name(), super::loads::law(pulse))
+    text + &format!("\nwhat acts, the {} pressure: {}\n", explosion.wave.name(), super::loads::law(pulse, "Pa"))
 }
 
 /// Durations of the two straight lines for the pressure that acts [s].

@@ -1,9 +1,11 @@
 //! `coralpipe check`: everything that can be wrong with a case or a mesh, found without solving.
 
 use super::loads;
+use super::mesh_report::{self, counts, groups, shapes};
 use super::run::{Loaded, Request, load};
 use crate::model::case::{Analysis, Boundary, Case};
 use crate::model::mesh::{Group, Mesh};
+use crate::model::number::short;
 use crate::model::quality;
 use crate::model::resolve::Model;
 use crate::physics::joint::{Friction, JointLaw};
@@ -12,8 +14,6 @@ use crate::solve::unknowns::Unknowns;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
-/// Below this an element's stiffness suffers.
-const SMALLEST_GOOD_ANGLE: f64 = 10.;
 /// Elements a wavelength needs for linear shape functions to carry it with a few per cent error in speed.
 const ELEMENTS_PER_WAVELENGTH: f64 = 10.;
 
@@ -25,7 +25,10 @@ pub fn command(request: &Request) -> Result<String> {
         }
         let mesh = Mesh::read(&request.case)?;
         quality::refuse_folded(&mesh)?;
-        return Ok(report(&[counts(&mesh), groups(&mesh, |_| String::new()), shapes(&mesh)]));
+        let mut warnings = mesh_report::warnings(&mesh);
+        warnings.extend(mesh_report::without_group(&mesh));
+        let warnings: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+        return Ok(report(&[counts(&mesh), groups(&mesh, |_| String::new()), shapes(&mesh), warnings]));
     }
     let Loaded { case, meshed, model } = load(request)?;
     Unknowns::new(&model.mesh, &model.fixed, &model.pairs)?;
@@ -42,30 +45,6 @@ pub fn command(request: &Request) -> Result<String> {
 
 fn report(parts: &[String]) -> String {
     parts.iter().filter(|p| !p.is_empty()).map(String::as_str).collect::<Vec<_>>().join("\n")
-}
-
-fn counts(mesh: &Mesh) -> String {
-    let mut by_shape = BTreeMap::new();
-    for cell in mesh.cells.iter().filter(|c| c.shape.dimension() == 2) {
-        *by_shape.entry(cell.shape).or_insert(0) += 1;
-    }
-    let shapes: Vec<String> = by_shape.iter().map(|(shape, n)| format!("{n} {shape:?}")).collect();
-    format!("{}: {} nodes; {}; {} turned anticlockwise\n", mesh.name, mesh.points.len(), shapes.join(", "), mesh.turned)
-}
-
-fn groups(mesh: &Mesh, taken_for: impl Fn(&Group) -> String) -> String {
-    let row = |group: &Group| {
-        let size = match group.dimension {
-            0 => mesh.nodes_of(group).first().map_or(String::new(), |&n| {
-                let [x, y] = mesh.points[n];
-                format!("point at ({x:.4}, {y:.4}) m")
-            }),
-            1 => format!("{:6} lines, {:10.4} m", group.cells.len(), mesh.measure_of(group)),
-            _ => format!("{:6} elements, {:10.4} m2", group.cells.len(), mesh.measure_of(group)),
-        };
-        format!("  {:<18} {size:<30} {}", group.name, taken_for(group)).trim_end().to_string() + "\n"
-    };
-    mesh.groups.iter().rev().map(row).fold("groups\n".to_string(), |text, row| text + &row)
 }
 
 /// What the case makes of a name.
@@ -135,31 +114,6 @@ fn interface_role(seam: usize, model: &Model) -> String {
     format!("interface of {}: {}", model.seams[seam].body, text.collect::<Vec<_>>().join("; "))
 }
 
-/// The worst angle and the sides, each with its place.
-fn shapes(mesh: &Mesh) -> String {
-    let faces: Vec<usize> = (0..mesh.cells.len()).filter(|&c| mesh.cells[c].shape.dimension() == 2).collect();
-    let place = |cell: usize| {
-        let [x, y] = mesh.centroid(&mesh.cells[cell]);
-        format!("at ({x:.4}, {y:.4}) m")
-    };
-    let extreme = |value: &dyn Fn(usize) -> f64| {
-        let worst = faces.iter().copied().min_by(|&a, &b| value(a).total_cmp(&value(b)));
-        worst.map(|cell| (value(cell), place(cell)))
-    };
-    let rows = [
-        ("smallest angle", "degrees", 1., extreme(&|c| quality::angles(mesh, &mesh.cells[c])[0])),
-        ("largest angle", "degrees", -1., extreme(&|c| -quality::angles(mesh, &mesh.cells[c])[1])),
-        ("shortest side", "m", 1., extreme(&|c| quality::sides(mesh, &mesh.cells[c])[0])),
-        ("longest side", "m", -1., extreme(&|c| -quality::sides(mesh, &mesh.cells[c])[1])),
-    ];
-    let row = |(what, unit, sign, found): &(&str, &str, f64, Option<(f64, String)>)| {
-        found
-            .as_ref()
-            .map_or(String::new(), |(value, place)| format!("  {what:<15} {:9.4} {unit} {place}\n", sign * value))
-    };
-    rows.iter().map(row).fold("elements\n".to_string(), |text, row| text + &row)
-}
-
 /// For each material: how fine its elements are against its waves and the time step.
 fn waves(model: &Model) -> String {
     let mut text = format!(
@@ -191,21 +145,15 @@ fn time(model: &Model) -> String {
     format!(
         "time\n  {} steps of {} s to {} s, a frame every {} steps\n",
         time.steps,
-        time.step,
-        time.step * time.steps as f64,
+        short(time.step),
+        short(time.step * time.steps as f64),
         time.steps_per_frame
     )
 }
 
 fn warnings(mesh: &Mesh, model: &Model) -> String {
     let mut warnings = model.warnings.clone();
-    let flat = mesh.cells.iter().filter(|c| c.shape.dimension() == 2);
-    let worst = flat.map(|c| quality::angles(mesh, c)[0]).fold(f64::INFINITY, f64::min);
-    if worst < SMALLEST_GOOD_ANGLE {
-        warnings.push(format!(
-            "the smallest angle, {worst:.1} degrees, is below {SMALLEST_GOOD_ANGLE}: stresses there are poor"
-        ));
-    }
+    warnings.extend(mesh_report::warnings(mesh));
     for load in &model.loads {
         let rise = load.pulse.rise_time();
         if rise > 0. && rise < 5. * model.time.step {

@@ -1,5 +1,6 @@
 //! What `check` says of loads: their laws, their rise against the time step, their fronts against the ground's waves.
 
+use crate::model::number::short;
 use crate::model::resolve::{Load, Model, Target};
 use crate::model::sweep::Sweep;
 use crate::physics::material::Material;
@@ -7,14 +8,14 @@ use crate::physics::pulse::Pulse;
 
 /// What a load does to its group.
 pub fn role(load: &Load) -> String {
-    let kind = match load.target {
-        Target::Pressure { .. } => "pressure",
-        Target::Traction { .. } => "traction",
-        Target::BodyForce { .. } => "body force",
-        Target::Force { .. } => "force",
+    let (kind, unit) = match load.target {
+        Target::Pressure { .. } => ("pressure", "Pa"),
+        Target::Traction { .. } => ("traction", "Pa"),
+        Target::BodyForce { .. } => ("body force", "N/m3"),
+        Target::Force { .. } => ("force", "N/m"),
     };
     let front = if load.sweep.is_some() { " behind a front, where it comes first" } else { "" };
-    format!("load: {kind}{front}, {}", law(&load.pulse))
+    format!("load: {kind}{front}, {}", law(&load.pulse, unit))
 }
 
 /// For each load its rise, and where it sweeps its front.
@@ -29,7 +30,7 @@ pub fn report(model: &Model) -> String {
 fn rise(load: &Load, step: f64) -> String {
     let rise = load.pulse.rise_time();
     match rise > 0. {
-        true => format!("  load on {} rises in {rise} s: {:.1} time steps\n", load.group, rise / step),
+        true => format!("  load on {} rises in {} s: {:.1} time steps\n", load.group, short(rise), rise / step),
         false => format!(
             "  load on {} jumps: peak accelerations follow the element size and the time step, displacements do not\n",
             load.group
@@ -73,24 +74,32 @@ fn regime([slow, fast]: [f64; 2], ground: &Material) -> String {
     }
 }
 
-/// A history in words.
-pub fn law(pulse: &Pulse) -> String {
+/// A history in words; its values have this unit.
+pub fn law(pulse: &Pulse, unit: &str) -> String {
+    let value = |v: f64| format!("{} {unit}", short(v));
+    let time = |t: f64| format!("{} s", short(t));
     match pulse {
-        Pulse::Linear { peak, duration } => format!("linear from {peak} at t = 0 to zero at {duration} s"),
-        Pulse::Step { peak } => format!("step of {peak} at t = 0"),
-        Pulse::Ramp { peak, duration } => format!("ramp to {peak} at {duration} s"),
-        Pulse::HalfSine { peak, duration } => format!("half sine of {peak} until {duration} s"),
+        Pulse::Linear { peak, duration } => {
+            format!("linear from {} at t = 0 to zero at {}", value(*peak), time(*duration))
+        }
+        Pulse::Step { peak } => format!("step of {} at t = 0", value(*peak)),
+        Pulse::Ramp { peak, duration } => format!("ramp to {} at {}", value(*peak), time(*duration)),
+        Pulse::HalfSine { peak, duration } => format!("half sine of {} until {}", value(*peak), time(*duration)),
         Pulse::Friedlander { peak, duration, decay, negative } => {
-            let negative =
-                negative.map_or(String::new(), |n| format!(", then down to -{} for {} s", n.peak, n.duration));
-            format!("Friedlander pulse from {peak} to zero at {duration} s, decay {decay:.4}{negative}")
+            let negative = negative
+                .map_or(String::new(), |n| format!(", then down to {} for {}", value(-n.peak), time(n.duration)));
+            format!(
+                "Friedlander pulse from {} to zero at {}, decay {decay:.4}{negative}",
+                value(*peak),
+                time(*duration)
+            )
         }
         Pulse::Table { times, values } => {
             let largest = values.iter().fold(0f64, |m, v| if v.abs() > m.abs() { *v } else { m });
-            format!("table of {} times, largest value {largest}", times.len())
+            format!("table of {} times, largest value {}", times.len(), value(largest))
         }
         Pulse::Delayed { law: delayed, start, rise } => {
-            format!("{}, later by {start} s and with a rise of {rise} s", law(delayed))
+            format!("{}, later by {} and with a rise of {}", law(delayed, unit), time(*start), time(*rise))
         }
     }
 }

@@ -4,6 +4,7 @@ use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use super::screen::Screen;
 use crate::results::file;
+use crate::results::folder::refuse_foreign;
 use crate::results::frame::{Frame, Grid};
 use crate::solve::system::State;
 use crate::{Error, Result};
@@ -29,7 +30,9 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     }
     let modes = prepared.natural_modes(count)?;
 
-    let folder = request.folder(&case).join("modes");
+    let folder = request.folder(&case);
+    refuse_foreign(&folder)?;
+    let folder = folder.join("modes");
     file::create_folder(&folder)?;
     let grid = Grid::new(&prepared.model);
     let mut table = String::from("mode  frequency [Hz]  file\n");

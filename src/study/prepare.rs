@@ -1,6 +1,6 @@
 //! From a model to a system that is ready to march: matrices, natural modes, damping.
 
-use crate::model::case::Rayleigh as Damping;
+use crate::model::case::{Analysis, Rayleigh as Damping};
 use crate::model::resolve::Model;
 use crate::solve::modes::{NaturalMode, natural_modes, rayleigh};
 use crate::solve::system::{Rayleigh, System};
@@ -34,8 +34,10 @@ impl Prepared {
         let setup = start.elapsed();
 
         let start = Instant::now();
-        let damping = model.damping.map(|d| d.rayleigh);
-        let modes = modes_of(&model, &system, &symbolic, needed_modes(damping))?;
+        // Statics has neither inertia nor damping, so no modes to take them from.
+        let moves = model.analysis == Analysis::Dynamic;
+        let damping = model.damping.filter(|_| moves).map(|d| d.rayleigh);
+        let modes = if moves { modes_of(&model, &system, &symbolic, needed_modes(damping))? } else { vec![] };
         let rayleigh = coefficients(damping, &modes)?;
         let joints = model.damping.is_some_and(|d| d.interfaces);
         let system = system.with_damping(rayleigh, joints);

@@ -6,6 +6,7 @@ use crate::results::file;
 use crate::results::folder::{Folder, STATUS};
 use crate::results::frame::{Frame, Grid};
 use crate::results::histories::Histories;
+use crate::results::motion::Motion;
 use crate::results::ring::rings;
 use crate::results::ring_table::RingTable;
 use crate::results::series::Series;
@@ -32,6 +33,7 @@ pub struct Recorder<'a> {
     status_lines: String,
     ledger: Ledger,
     contact: ContactRecord,
+    motion: Motion,
     steps: usize,
     iterations: usize,
     started: Instant,
@@ -64,6 +66,7 @@ impl<'a> Recorder<'a> {
             status_lines: STATUS_HEADER.into(),
             ledger: Ledger::start(&prepared.system, state),
             contact: ContactRecord::default(),
+            motion: Motion::default(),
             steps: 0,
             iterations: 0,
             started: Instant::now(),
@@ -102,6 +105,7 @@ impl<'a> Recorder<'a> {
 
     fn write_frame(&mut self, state: &State) -> Result<()> {
         self.flush()?;
+        self.motion = self.motion.after(&self.prepared.model, &self.prepared.system, state);
         self.rings.record(&self.prepared.model, &self.prepared.system, state, &self.origin)?;
         self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin))
     }
@@ -114,7 +118,8 @@ impl<'a> Recorder<'a> {
     }
 
     fn write_status(&mut self, number: usize, old: &State, step: &Step) {
-        let (open, slipping) = open_and_slipping(&step.state);
+        let system = &self.prepared.system;
+        let (open, slipping) = open_and_slipping(&system.interface, &step.state, system.jumps(&step.state.q));
         let e = &self.ledger.now;
         let left =
             self.started.elapsed().as_secs_f64() / number as f64 * (self.prepared.model.time.steps - number) as f64;
@@ -169,7 +174,13 @@ impl<'a> Recorder<'a> {
             peaks: self.histories.peaks(),
             energy: EnergyRecord::from(&self.ledger),
             timing: Timing { steps_s, output_s: written.busy.as_secs_f64(), ..timing },
-            warnings: model.warnings.iter().cloned().chain(self.ledger.warning()).collect(),
+            warnings: model
+                .warnings
+                .iter()
+                .cloned()
+                .chain(self.ledger.warning())
+                .chain(self.motion.warnings())
+                .collect(),
         })
     }
 }

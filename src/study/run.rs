@@ -1,21 +1,24 @@
 //! `coralpipe run`: from the case to the results folder.
 
+use super::inputs::{inputs, replaced};
 use super::mesh::{self, Meshed};
 use super::prepare::Prepared;
 use super::recorder::{Ending, Recorder};
 use super::screen::{Screen, tell};
 use super::unsettled;
 use crate::model::case::{Analysis, Case};
-use crate::model::resolve::{Initial, Model};
+use crate::model::hold::refuse_loose;
+use crate::model::idle::idle;
+use crate::model::initial::Initial;
+use crate::model::resolve::Model;
 use crate::results::folder::Folder;
-use crate::results::summary::{Inputs, Timing};
+use crate::results::summary::Timing;
 use crate::solve::march::March;
 use crate::solve::start;
 use crate::solve::step::{Scheme, Stepper};
 use crate::solve::system::{State, System};
 use crate::sparse::{NotPositiveDefinite, Symbolic};
 use crate::{Error, Result};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -67,7 +70,11 @@ pub fn load(request: &Request) -> Result<Loaded> {
     let case = Case::read(&request.case, &request.sets)?;
     let meshed = mesh::obtain(&case, &request.geo, request.mesh.as_deref())?;
     let mut model = Model::new(&case, &meshed.mesh, request.bonded)?;
+    model.warnings.extend(idle(&case, &model));
     model.warnings.extend(meshed.warnings.iter().cloned());
+    if case.analysis == Analysis::Static || case.gravity.0 > 0. {
+        refuse_loose(&model.held())?;
+    }
     Ok(Loaded { case, meshed, model })
 }
 
@@ -96,7 +103,10 @@ pub fn command(request: &Request) -> Result<String> {
     };
     let inputs = inputs(&case, &meshed.path, request)?;
     MARCHING.store(true, Relaxed);
-    let folder = Folder::prepare(&request.folder(&case), &case.name())?;
+    let path = request.folder(&case);
+    let replaced = replaced(&path, &inputs);
+    let folder = Folder::prepare(&path, &case.name())?;
+    replaced.iter().for_each(|sentence| screen.say(sentence));
     let solve = || {
         let mut recorder = Recorder::start(&prepared, &folder, &state, origin)?;
         let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
@@ -131,7 +141,7 @@ fn ready_to_march(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>, 
     };
     if !state.is_finite() {
         return Err(Error::input(
-            "the state at t = 0 has numbers too large for a computer: check loads, gravity and densities",
+            "the state at t = 0 has numbers too large for a computer: check loads, gravity, densities and the initial motion",
         ));
     }
     let march = March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?;
@@ -198,20 +208,4 @@ fn with_what_is_left(error: Error, folder: &Folder) -> Error {
         Error::Interrupted(s) => Error::Interrupted(whole(s)),
         Error::Input(s) => Error::Input(s + &kept),
     }
-}
-
-fn inputs(case: &Case, mesh: &Path, request: &Request) -> Result<Inputs> {
-    let content = std::fs::read(mesh).map_err(|e| Error::input(format!("{}: {e}", mesh.display())))?;
-    let hash = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
-    Ok(Inputs {
-        case: case.path().display().to_string(),
-        case_sha256: hash(case.json().to_string().as_bytes()),
-        effective_case: case.json().clone(),
-        set: request.sets.clone(),
-        geo: request.geo.clone(),
-        mesh: mesh.display().to_string(),
-        mesh_sha256: hash(&content),
-        bonded: request.bonded,
-        coralpipe: env!("CARGO_PKG_VERSION"),
-    })
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::duplicate::Unique;
-use super::{Analysis, Case, Newmark, sentence, set, table};
+use super::{Analysis, Case, sentence, set, table};
 use crate::{Error, Result};
 
 impl Case {
@@ -14,16 +14,38 @@ impl Case {
     /// Any error is `Error::Input` with the file, the path inside it and what is wrong there.
     pub fn read(path: &Path, sets: &[String]) -> Result<Case> {
         let file = path.display();
+        refuse_other_kinds(path)?;
         let text = std::fs::read_to_string(path).map_err(|why| unreadable(path, &why))?;
         let json = parse(&text).map_err(|why| Error::input(format!("{file}, {why}")))?;
+        let written = json.clone();
         let json = sets.iter().try_fold(json, |json, setting| set::set(json, setting)).map_err(Error::Input)?;
         let origin = match sets {
             [] => file.to_string(),
             _ => format!("{file} with --set {}", sets.join(" --set ")),
         };
         let folder = path.parent().unwrap_or(Path::new(""));
-        let case = from_json(json, folder).map_err(|why| Error::input(format!("{origin}: {why}")))?;
+        let case = from_json(json, folder).map_err(|why| {
+            let new = sets.iter().filter_map(|setting| set::new_name(&written, setting)).collect::<String>();
+            Error::input(format!("{origin}: {why}{new}"))
+        })?;
         Ok(Case { path: path.into(), ..case })
+    }
+}
+
+/// A mesh or a script in place of the case that names it.
+fn refuse_other_kinds(path: &Path) -> Result<()> {
+    let file = path.display();
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("msh") => Err(Error::input(format!(
+            "{file} is a mesh, and a case is needed, a .json that gives its groups materials, supports and loads: give the \
+             mesh by CASE.json --mesh {file}; check {file} looks at the mesh alone"
+        ))),
+        Some("geo") => Err(Error::input(format!(
+            "{file} is a geometry, and a case is needed, a .json that names it as {{ \"geometry\": {{ \"script\": \"{}\" }} }} and \
+             gives its groups materials, supports and loads; geo/twin_pipes.json is one",
+            path.file_name().unwrap_or_default().to_string_lossy()
+        ))),
+        _ => Ok(()),
     }
 }
 
@@ -36,7 +58,7 @@ fn from_json(json: Value, folder: &Path) -> std::result::Result<Case, String> {
             place => format!("{place}: {what}"),
         }
     })?;
-    validate(&case)?;
+    validate(&case, &json)?;
     Ok(Case { json, ..case })
 }
 
@@ -51,7 +73,7 @@ fn with_tables(mut json: Value, folder: &Path) -> std::result::Result<Value, Str
 const ROUND_OFF: f64 = 1e-12;
 
 /// What one value cannot know of another.
-fn validate(case: &Case) -> std::result::Result<(), String> {
+fn validate(case: &Case, json: &Value) -> std::result::Result<(), String> {
     let time = &case.time;
     if time.end < time.step {
         return Err(format!("time.end: it is {}, and must be at least one step ({})", time.end, time.step));
@@ -64,7 +86,7 @@ fn validate(case: &Case) -> std::result::Result<(), String> {
              delta must be at least 0.5 and alpha at least (delta + 0.5)^2 / 4 = {least:.6}"
         ));
     }
-    if time.hht != 0.0 && time.newmark != Newmark::default() {
+    if time.hht != 0.0 && json["time"].get("newmark").is_some() {
         return Err("time.hht: it sets alpha and delta itself; leave time.newmark out, or hht".into());
     }
     if case.analysis == Analysis::Static && time.energy_tolerance.is_some() {

@@ -2,13 +2,15 @@
 
 use serde_json::{Map, Value};
 
+use super::nearest;
+
 /// A path this deep names nothing in a case.
 const DEEPEST: usize = 32;
 
 /// `json` with the value at a dotted path replaced; missing objects on the way are made.
 ///
 /// `loads.surface.pressure.peak=200 kPa`, `damping.modes.1=3`, `damping=null`: VALUE is JSON if it reads as such, else
-/// a string. The error is a sentence that names the setting.
+/// a string; null takes the key out. The error is a sentence that names the setting.
 pub fn set(json: Value, setting: &str) -> Result<Value, String> {
     let (path, text) = setting
         .split_once('=')
@@ -23,6 +25,25 @@ pub fn set(json: Value, setting: &str) -> Result<Value, String> {
     replaced(json, &keys, value).map_err(|why| format!("--set {setting:?}: {why}"))
 }
 
+/// Where a setting reaches into a group that the file does not have, which groups it has: `materials.layer_9.young=1`.
+pub fn new_name(written: &Value, setting: &str) -> Option<String> {
+    let keys: Vec<&str> = setting.split('=').next()?.split('.').map(str::trim).collect();
+    let [section @ ("materials" | "interfaces" | "loads" | "initial"), name, _, ..] = keys[..] else { return None };
+    let there: Vec<String> = match written.get(section) {
+        Some(Value::Object(map)) => map.keys().cloned().collect(),
+        Some(_) => return None,
+        None => vec![],
+    };
+    let hint = nearest(name, there.iter().map(String::as_str)).map(|near| format!(", did you mean \"{near}\"?"));
+    (!there.iter().any(|n| n == name)).then(|| {
+        format!(
+            "; --set {setting:?} makes a new {section}.{name}{} The file has: {}",
+            hint.unwrap_or(".".into()),
+            there.join(", ")
+        )
+    })
+}
+
 fn replaced(json: Value, keys: &[&str], value: Value) -> Result<Value, String> {
     let Some((&key, deeper)) = keys.split_first() else {
         return Ok(value);
@@ -30,7 +51,10 @@ fn replaced(json: Value, keys: &[&str], value: Value) -> Result<Value, String> {
     match json {
         Value::Object(mut map) => {
             let old = map.get(key).cloned().unwrap_or(Value::Null);
-            map.insert(key.into(), replaced(old, deeper, value)?);
+            match replaced(old, deeper, value)? {
+                Value::Null => map.shift_remove(key),
+                new => map.insert(key.into(), new),
+            };
             Ok(Value::Object(map))
         }
         Value::Null => replaced(Value::Object(Map::new()), keys, value),
@@ -58,7 +82,6 @@ mod tests {
             ("a.b=5 kPa", "/a/b", json!("5 kPa")),
             ("a.b=\"5\"", "/a/b", json!("5")),
             ("a.b==", "/a/b", json!("=")),
-            ("a.b=null", "/a/b", json!(null)),
             ("a.c.0=[3]", "/a/c/0", json!([3])),
             ("a.c.1.d=x", "/a/c/1/d", json!("x")),
             ("e.f.g=true", "/e/f/g", json!(true)),
@@ -68,6 +91,14 @@ mod tests {
             assert_eq!(new.pointer(pointer), Some(&expected), "{setting}");
             assert_eq!(new["a"]["c"].as_array().unwrap().len(), 2, "{setting}");
         }
+    }
+
+    #[test]
+    fn null_takes_a_key_out() {
+        let old = json!({ "a": { "b": 1, "c": 2 }, "e": 3 });
+        assert_eq!(set(old.clone(), "a.b=null").unwrap(), json!({ "a": { "c": 2 }, "e": 3 }));
+        assert_eq!(set(old.clone(), "e=null").unwrap(), json!({ "a": { "b": 1, "c": 2 } }));
+        assert_eq!(set(old.clone(), "none=null").unwrap(), old);
     }
 
     #[test]

@@ -1,0 +1,45 @@
+//! Keys of the case that have a meaning, but none here: said so, since somebody meant something by them.
+
+use super::case::{Analysis, Case, Quad4};
+use super::mesh::Shape;
+use super::resolve::Model;
+
+/// A sentence for each.
+pub fn idle(case: &Case, model: &Model) -> Vec<String> {
+    let mut idle = Vec::new();
+    let given = |key: &str| case.json().pointer(&format!("/{}", key.replace('.', "/"))).is_some_and(|v| !v.is_null());
+    let of_motion: Vec<&str> =
+        ["time.hht", "time.newmark", "time.start", "mass", "damping"].into_iter().filter(|k| given(k)).collect();
+    if case.analysis == Analysis::Static && !of_motion.is_empty() {
+        idle.push(format!(
+            "a static calculation has no inertia and no damping: {} has no effect",
+            of_motion.join(", ")
+        ));
+    }
+    let is_quad4 = |(cell, _): (usize, _)| model.mesh.cells[cell].shape == Shape::Quad4;
+    if case.elements.quad4 == Quad4::BBar && !model.faces().any(is_quad4) {
+        idle.push("elements.quad4 = \"b_bar\" has no effect: the mesh has no 4-node quadrangles".into());
+    }
+    for name in case.initial.keys() {
+        if case.json()["initial"][name].as_object().is_some_and(|keys| keys.is_empty()) {
+            idle.push(format!("initial.{name} has no effect: it gives neither \"velocity\" nor \"displacement\""));
+        }
+        idle.extend(held_motion(case, model, name));
+    }
+    idle
+}
+
+/// A motion at t = 0 of nodes that supports hold.
+fn held_motion(case: &Case, model: &Model, name: &str) -> Option<String> {
+    let motion = &case.initial[name];
+    let moves = [0, 1].map(|axis| motion.velocity[axis].0 != 0. || motion.displacement[axis].0 != 0.);
+    let nodes = model.mesh.nodes_of(model.mesh.group(name).ok()?);
+    let held: Vec<usize> =
+        nodes.into_iter().filter(|&n| (0..2).any(|axis| moves[axis] && model.fixed[n][axis])).collect();
+    let [x, y] = model.mesh.points[*held.first()?];
+    Some(format!(
+        "initial.{name}: supports hold {} of its nodes against the motion it gives them, one at ({x:.4}, {y:.4}) m; they \
+         do not move",
+        held.len()
+    ))
+}

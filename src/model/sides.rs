@@ -1,0 +1,76 @@
+//! The sides of faces by their corners, and whether all elements that meet along a side share all its nodes.
+
+use super::mesh::{Cell, Mesh};
+use crate::{Error, Result};
+use std::collections::{BTreeSet, HashMap};
+
+/// An edge by its two corner nodes, smaller first.
+pub type Edge = (usize, usize);
+
+/// Every side of every face with that face, running anticlockwise, by its corners; twice where two faces share it.
+pub type Sides = HashMap<Edge, Vec<(usize, Vec<usize>)>>;
+
+/// The edge of a line or of a side, whose first two nodes are its ends.
+pub fn edge(nodes: &[usize]) -> Edge {
+    (nodes[0].min(nodes[1]), nodes[0].max(nodes[1]))
+}
+
+pub fn solid_sides(mesh: &Mesh) -> Sides {
+    let mut sides = Sides::new();
+    for (cell, face) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
+        for nodes in sides_of(face) {
+            sides.entry(edge(&nodes)).or_default().push((cell, nodes));
+        }
+    }
+    sides
+}
+
+/// The nodes of a line, or of each side of a face: two ends, then the mid-side node if there is one.
+fn sides_of(cell: &Cell) -> Vec<Vec<usize>> {
+    match cell.shape.dimension() {
+        0 => vec![],
+        1 => vec![cell.nodes.clone()],
+        _ => cell.shape.sides().into_iter().map(|side| side.iter().map(|&local| cell.nodes[local]).collect()).collect(),
+    }
+}
+
+/// Elements of first and second order side by side are not joined at the mid-side nodes: what they compute is wrong without
+/// a word. `tags`: of the cells in the file, for the sentence.
+///
+/// Errors: two cells with the same edge of which one has a mid-side node and the other has not, or has another; a
+/// mid-side node that is an end of another cell's side.
+pub fn refuse_unlike_sides(mesh: &Mesh, tags: &[usize]) -> Result<()> {
+    let mut seen: HashMap<Edge, (usize, Option<usize>)> = HashMap::new();
+    let mut mids: HashMap<usize, usize> = HashMap::new();
+    for (cell, nodes) in
+        mesh.cells.iter().enumerate().flat_map(|(c, cell)| sides_of(cell).into_iter().map(move |s| (c, s)))
+    {
+        let mid = nodes.get(2).copied();
+        let &mut (other, mid_of_other) = seen.entry(edge(&nodes)).or_insert((cell, mid));
+        if mid != mid_of_other {
+            return Err(unlike(mesh, tags, [cell, other]));
+        }
+        mids.extend(mid.map(|mid| (mid, cell)));
+    }
+    for (cell, corners) in
+        mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() > 0).map(|(c, x)| (c, x.corners()))
+    {
+        if let Some(&other) = corners.iter().find_map(|corner| mids.get(corner)) {
+            return Err(unlike(mesh, tags, [cell, other]));
+        }
+    }
+    Ok(())
+}
+
+fn unlike(mesh: &Mesh, tags: &[usize], cells: [usize; 2]) -> Error {
+    let [one, other] = cells.map(|cell| {
+        let groups: BTreeSet<&str> = mesh.groups_of(cell).map(|g| g.name.as_str()).collect();
+        let whose = groups.iter().map(|name| format!(" of \"{name}\"")).collect::<String>();
+        format!("the {}-node element {}{whose} at {}", mesh.cells[cell].nodes.len(), tags[cell], mesh.place(cell))
+    });
+    Error::input(format!(
+        "{}: {one} and {other} meet along a side, but do not share all its nodes: first and second order are mixed; mesh \
+         faces and curves alike, with one Mesh.ElementOrder, and save them together",
+        mesh.name
+    ))
+}
