@@ -194,7 +194,7 @@ fn every_impossible_value_is_a_sentence_with_file_path_value_and_range() {
         ("materials.layer_1.young=-3 MPa", "materials.layer_1.young", "it is -3000000 Pa, and must be greater than 0"),
         ("materials.layer_1.young=0", "materials.layer_1.young", "must be greater than 0"),
         ("materials.layer_1.young=true", "materials.layer_1.young", "a number in Pa or a string like"),
-        ("materials.layer_1.young=null", "materials.layer_1.young", "a number in Pa or a string like"),
+        ("materials.layer_1.young=null", "materials.layer_1", "the key \"young\" is missing"),
         ("materials.layer_1.poisson=0.5", "materials.layer_1.poisson", "less than 0.5 (0.5 is incompressible"),
         ("materials.layer_1.poisson=-1", "materials.layer_1.poisson", "it is -1, and must be greater than -1"),
         ("materials.layer_1.poisson=0.3 MPa", "materials.layer_1.poisson", "stands where a number is expected"),

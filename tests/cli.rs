@@ -77,7 +77,7 @@ fn a_bad_case_file_is_refused_with_its_place() {
             (
                 "a material that the case has not",
                 "block.json --set materials.gruond.young=1",
-                &["materials.gruond", "did you mean \"ground\"?", "body, ground"],
+                &["materials.gruond", "did you mean \"ground\"?", "ground, body"],
             ),
             ("no geometry", "block.json --set geometry=null", &["block.json", "\"geometry\"", "--mesh"]),
             ("empty geometry", "block.json --set geometry={}", &["geometry", "\"script\"", "\"mesh\""]),
@@ -504,7 +504,7 @@ fn a_mesh_alone_is_warned_of_as_in_a_case() {
     for words in
         ["1 surface elements belong to no", "(4.5000, 0.5000)", "any element: nothing", "1 elements stand twice"]
     {
-        assert!(stdout.contains(&words), "{words}: {stdout}");
+        assert!(stdout.contains(words), "{words}: {stdout}");
     }
     let numbers = bench.run_line("check block.json --set time.step=0.3ms --set time.end=0.9ms").stdout;
     assert!(numbers.contains("3 steps of 0.0003 s to 0.0009 s"), "{numbers}");

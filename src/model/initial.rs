@@ -11,11 +11,14 @@ pub struct Initial {
     pub velocity: Vec<[f64; 2]>,
 }
 
+/// (displacement, velocity) [m], [m/s]
+type Motion = [[f64; 2]; 2];
+
 /// The case's displacement and velocity by group; nodes of no such group are at rest.
 ///
 /// Errors: groups that do not exist, or that share a node and give it different motions.
 pub fn initial(case: &Case, mesh: &Mesh) -> Result<Initial> {
-    let mut given: Vec<Option<(&str, [[f64; 2]; 2])>> = vec![None; mesh.points.len()];
+    let mut given: Vec<Option<(&str, Motion)>> = vec![None; mesh.points.len()];
     for (name, motion) in &case.initial {
         let group = mesh.group(name).map_err(|e| Error::input(format!("initial: {e}")))?;
         let new = [motion.displacement.map(f64::from), motion.velocity.map(f64::from)];
