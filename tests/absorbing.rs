@@ -10,7 +10,7 @@ use coralpipe::solve::system::{Rayleigh, State, System};
 use nalgebra::{Complex, Matrix2, Matrix4, Vector2, Vector4};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
-use support::{Drawing, node_at, peak, run_twin_pipes};
+use support::{Drawing, node_at};
 
 /// Ground of rectangles between the given x and y, from the left and from the bottom up: `ground_1` below the middle row,
 /// `ground_2` above it; curves base, surface, left, right.

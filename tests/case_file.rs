@@ -255,7 +255,7 @@ fn every_impossible_value_is_a_sentence_with_file_path_value_and_range() {
         ("probes.1=5", "probes[1]", "the name of a physical point, or an object"),
         ("probes.1={\"name\":\"P\"}", "probes[1]", "the key \"at\" is missing"),
         ("materials=[]", "materials", "an object is expected"),
-        ("time=null", "twin_pipes.json", "the key \"time\" is missing"),
+        ("time=5", "time", "an object is expected"),
     ] {
         let sentence = sentence(set);
         let head = format!("geo/twin_pipes.json with --set {set}: {place}: ");

@@ -4,8 +4,9 @@
 use super::absorbing::Absorber;
 use super::boundary::Border;
 use super::case::{Boundary, Case};
+use super::initial::Initial;
 use super::mesh::{Cell, Mesh};
-use super::resolve::{Initial, Load, Model, Target};
+use super::resolve::{Load, Model, Target};
 use crate::physics::shape::Shape;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
