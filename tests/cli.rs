@@ -450,6 +450,9 @@ fn a_static_run_computes_no_modes_and_stands_on_its_base() {
     let outcome = bench.run_line("run block.json --set analysis=static --set damping.modes=[1,9999]");
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     assert!(!outcome.stdout.contains("frequencies"), "{}", outcome.stdout);
+    // `modes` of the same case, held by nothing, still tells its rigid motions
+    let loose = bench.run_line("modes block.json --set analysis=static --set supports={}");
+    assert!(loose.code == Some(0) && loose.stdout.contains("0.000000"), "{}", loose.stderr);
 }
 
 /// A slip such as `--out /` must not write among other people's files.

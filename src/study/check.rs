@@ -4,6 +4,7 @@ use super::loads;
 use super::mesh_report::{self, counts, groups, shapes};
 use super::run::{Loaded, Request, load};
 use crate::model::case::{Analysis, Boundary, Case};
+use crate::model::hold::refuse_loose;
 use crate::model::mesh::{Group, Mesh};
 use crate::model::number::short;
 use crate::model::quality;
@@ -31,6 +32,7 @@ pub fn command(request: &Request) -> Result<String> {
         return Ok(report(&[counts(&mesh), groups(&mesh, |_| String::new()), shapes(&mesh), warnings]));
     }
     let Loaded { case, meshed, model } = load(request)?;
+    refuse_loose(&model)?;
     Unknowns::new(&model.mesh, &model.fixed, &model.pairs)?;
     let parts = [
         format!("{}\n{}", meshed.told, counts(&meshed.mesh)),

@@ -72,9 +72,6 @@ pub fn load(request: &Request) -> Result<Loaded> {
     let mut model = Model::new(&case, &meshed.mesh, request.bonded)?;
     model.warnings.extend(idle(&case, &model));
     model.warnings.extend(meshed.warnings.iter().cloned());
-    if case.analysis == Analysis::Static || case.gravity.0 > 0. {
-        refuse_loose(&model.held())?;
-    }
     Ok(Loaded { case, meshed, model })
 }
 
@@ -85,6 +82,7 @@ pub fn command(request: &Request) -> Result<String> {
     let started = Instant::now();
     let screen = Screen::new(request.quiet);
     let Loaded { case, meshed, model } = load(request)?;
+    refuse_loose(&model)?;
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
     let told = model.warnings.len();
