@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import book
 from book.lib import ROOT, Book, Failed, Page
-from book.pages import write_page, write_summary
+from book.pages import code_links, mark_stale, write_page, write_summary
 
 FULL_ONLY = {"condensed"}  # quick: `make test` runs its Rust test anyway
 NO_CASES = {"lib", "pages", "__main__", "ring_theory"}
@@ -41,33 +41,37 @@ def main() -> int:
     if not arguments.cases:
         shutil.rmtree(ROOT / "output" / "book" / ("quick" if arguments.quick else "full"), ignore_errors=True)
     with ThreadPoolExecutor(arguments.jobs) as pool:
-        pages = list(pool.map(lambda name: calculate(name, arguments.quick), wanted))
-    pages = [page for page in pages if page is not None]
+        found = dict(zip(wanted, pool.map(lambda name: calculate(name, arguments.quick), wanted)))
+    pages = [page for page in found.values() if isinstance(page, Page)]
     if not arguments.quick:
         for page in pages:
             write_page(page)
-        if not arguments.cases:
-            write_summary(pages, time.monotonic() - started)
-    bad = [name for name in wanted if name not in {p.name for p in pages if p.passes}]
+        failed = {name: why for name, why in found.items() if isinstance(why, str)}
+        for name, why in failed.items():
+            mark_stale(name, why)
+        write_summary(pages, list(failed), known)
+    bad = [name for name in wanted if name not in {p.name for p in pages if p.holds(arguments.quick)}]
     rows = sum(len(page.rows) for page in pages)
     print(f"{len(wanted) - len(bad)} of {len(wanted)} cases hold, {rows} numbers, {time.monotonic() - started:.0f} s")
     return 1 if bad else 0
 
 
-def calculate(name: str, quick: bool) -> Page | None:
-    """The page of a case; what misses is said at once. None where a run fails."""
+def calculate(name: str, quick: bool) -> Page | str:
+    """The page of a case; what misses is said at once. Where a run fails, why."""
     started = time.monotonic()
     try:
-        page = importlib.import_module(f"book.{name}").page(Book(quick))
+        runs = Book(quick)
+        page = importlib.import_module(f"book.{name}").page(runs)
+        page.name, page.commands = name, runs.commands
+        code_links(page)
     except (Failed, KeyError, IndexError, ValueError, OSError) as why:
-        print(f"book: {name} gives no result: {type(why).__name__}: {why}", file=sys.stderr)
-        return None
-    page.name = name
+        print(f"book: {name} gives no result: {why if isinstance(why, Failed) else repr(why)}", file=sys.stderr)
+        return str(why) if isinstance(why, Failed) else f"{type(why).__name__}: {why}"
     for row in page.rows:
-        if not row.passes:
+        if not row.holds(quick):
             print(f"book: {name}: {row.quantity} is {row.value:.8g} {row.unit} and should be {row.reference:.8g}: the "
-                  f"error {row.error:.3g} is above its tolerance {row.tolerance:.3g}", file=sys.stderr)
-    print(f"{name:28} {len(page.rows):4} numbers {'hold' if page.passes else 'MISS'} {time.monotonic() - started:6.1f} s",
+                  f"error {row.error:.3g} is above its tolerance {row.allowed(quick):.3g}", file=sys.stderr)
+    print(f"{name:28} {len(page.rows):4} numbers {'hold' if page.holds(quick) else 'MISS'} {time.monotonic() - started:6.1f} s",
           flush=True)
     return page
 

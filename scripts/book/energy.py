@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from book.lib import ROOT, Page, Row
+from book.lib import Page, Row
 
-TWIN, MESH = str(ROOT / "geo" / "twin_pipes.json"), str(ROOT / "meshes" / "twin_pipes.msh")
+TWIN, MESH = "geo/twin_pipes.json", "meshes/twin_pipes.msh"
 
 
 def identity(h, dt, alpha, beta, duration):

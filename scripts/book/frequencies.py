@@ -105,6 +105,14 @@ def elastic_ring(n):
 END = "Saint-Venant: the held root may not narrow, which shortens the beam by a part of its depth and raises f by twice that over the length"
 
 
+def chain(k, n, is_lumped):
+    """[Hz] of mode k of a column of n equal elements of two nodes, exact: theta = (2k - 1) pi / 2n;
+    lumped 2 c/h sin(theta/2), consistent c/h sqrt(6 (1 - cos theta) / (2 + cos theta))."""
+    speed, size, theta = np.sqrt(50e6 * 9.81 / 20e3), 10 / n, (2 * k - 1) * np.pi / (2 * n)
+    factor = 2 * np.sin(theta / 2) if is_lumped else np.sqrt(6 * (1 - np.cos(theta)) / (2 + np.cos(theta)))
+    return speed / size * factor / (2 * np.pi)
+
+
 def page(book):
     beam = {"along": 80, "across": 4} if book.quick else {"along": 160, "across": 8}
     ring = {"around": 64, "through": 2} if book.quick else {"around": 128, "through": 4}
@@ -134,6 +142,10 @@ def page(book):
                             why="error of the mesh"))
         rows.append(Row(f"ring: n = {n}, thin ring", thin_ring(n), rings[place], 0.025, "Hz",
                         why="48.30, 136.6 Hz; shear and rotary inertia of a wall of a tenth of the radius take 1 to 2 %"))
+    for kind, is_lumped in [("lumped", True), ("consistent", False)]:
+        found = book.modes("uniform_column", 3, geo={"size": 0.5}, sets={"mass": kind})
+        rows += [Row(f"column of 20 elements, {kind} mass: mode {k}", chain(k, 20, is_lumped), found[k - 1], 1e-5, "Hz",
+                     why="the digits that `coralpipe modes` prints") for k in (1, 2, 3)]
     return Page(
         "frequencies", "Natural frequencies: strip on rollers, cantilever, free ring", [16],
         problem="`coralpipe modes` of a steel cantilever of 10 x 0.5 m and of a concrete ring of mean radius 0.95 m and wall 0.1 m "

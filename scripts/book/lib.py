@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import re
+import shlex
 import subprocess
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -40,6 +41,8 @@ class Row:
     """where the tolerance comes from"""
     bound: str = ""
     """"least" or "most": the reference is a bound, and only a value beyond it is an error"""
+    quick: tuple = ()
+    """(tolerance, reason) of the quick form, where its coarser mesh needs another"""
 
     @property
     def error(self) -> float:
@@ -48,9 +51,11 @@ class Row:
             return 0.0
         return difference / abs(self.reference) if self.relative else difference
 
-    @property
-    def passes(self) -> bool:
-        return bool(self.error <= self.tolerance)  # NaN does not
+    def allowed(self, quick: bool) -> float:
+        return self.quick[0] if quick and self.quick else self.tolerance
+
+    def holds(self, quick: bool) -> bool:
+        return bool(self.error <= self.allowed(quick))  # NaN does not
 
 
 @dataclass
@@ -67,22 +72,26 @@ class Page:
     notes: str = ""
     """what was assumed, what misses"""
     code: list = field(default_factory=list)
-    """files of the repository that compute it"""
+    """what computes it: a file of the repository, or file::function"""
     plot: Callable | None = None
     """draws into a matplotlib Axes"""
     tables: list = field(default_factory=list)
     """further tables: (heading, [column, ...], [[text, ...], ...])"""
+    example: tuple = ()
+    """(a `Result`, where in its folder which number of the page stands)"""
+    commands: list = field(default_factory=list)
+    """every call of the program, as typed"""
 
-    @property
-    def passes(self) -> bool:
-        return bool(self.rows) and all(row.passes for row in self.rows)
+    def holds(self, quick: bool) -> bool:
+        return bool(self.rows) and all(row.holds(quick) for row in self.rows)
 
 
 class Result:
-    """The results folder of a run."""
+    """The results folder of a run, and the command that made it."""
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path, command: str = ""):
         self.folder = Path(folder)
+        self.command = command
         self._frames = {}
 
     @cached_property
@@ -112,6 +121,7 @@ class Book:
 
     def __init__(self, quick: bool):
         self.quick = quick
+        self.commands = []
         self._results = {}
 
     def run(self, case, *, sets=None, geo=None, mesh=None, tag="", bonded=False) -> Result:
@@ -127,13 +137,16 @@ class Book:
             if any(folder == other.folder for other in self._results.values()):
                 folder = folder.with_name(f"{folder.name}_{len(self._results)}")
             command(["run", *arguments, "--quiet", "--out", str(folder)])
-            self._results[key] = Result(ROOT / folder)
+            self.commands.append(typed(["run", *arguments]))
+            self._results[key] = Result(ROOT / folder, self.commands[-1])
         return self._results[key]
 
     def modes(self, case, n: int, *, sets=None, geo=None, mesh=None) -> list:
         """The lowest n natural frequencies [Hz], from the table `coralpipe modes` prints."""
         out = OUTPUT / ("quick" if self.quick else "full") / Path(case).stem / "modes"
-        text = command(["modes", *self._arguments(case, sets or {}, geo or {}, mesh), "-n", str(n), "--out", str(out)])
+        arguments = ["modes", *self._arguments(case, sets or {}, geo or {}, mesh), "-n", str(n)]
+        text = command([*arguments, "--out", str(out)])
+        self.commands.append(typed(arguments))
         return [float(m.group(1)) for m in re.finditer(r"^ *\d+ +([-+.\deE]+) ", text, re.M)]
 
     @staticmethod
@@ -153,6 +166,11 @@ def command(arguments: list) -> str:
     if run.returncode != 0:
         raise Failed(f"coralpipe {' '.join(arguments)} ended with exit code {run.returncode}: {run.stderr.strip()[-2000:]}")
     return run.stdout
+
+
+def typed(arguments: list) -> str:
+    """The command line of a call, for a shell."""
+    return shlex.join(["coralpipe", *map(str, arguments)])
 
 
 def number(value) -> str:
@@ -186,9 +204,17 @@ def table(path: Path) -> dict:
     return columns
 
 
-def reference(name: str) -> dict:
-    """A table of scripts/book/reference/."""
-    return table(Path(__file__).parent / "reference" / name)
+def reference(name: str, until: float, count: int) -> dict:
+    """A table of scripts/book/reference/ with `count` times "t_ms" that end at `until` [ms]; `Failed` if it is not whole."""
+    path = Path(__file__).parent / "reference" / name
+    if not path.is_file():
+        raise Failed(f"the reference scripts/book/reference/{name} is missing; it belongs to the repository: `git checkout` it")
+    columns = table(path)
+    times = columns["t_ms"]
+    if len(times) != count or abs(times[-1] - until) > 1e-6 * until or (np.diff(times) <= 0).any():
+        raise Failed(f"the reference scripts/book/reference/{name} has {len(times)} rows and ends at {times[-1]:g} ms; whole, it "
+                     f"has {count}, in order, and ends at {until:g} ms: `git checkout` it")
+    return columns
 
 
 FACES = {"triangle": 3, "quad": 4, "triangle6": 3, "quad8": 4}

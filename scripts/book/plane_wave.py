@@ -59,7 +59,7 @@ def peak(found, name, until=0.02):
 
 
 def page(book):
-    exact = reference("pipe_pwave.csv")
+    exact = reference("pipe_pwave.csv", until=24.4597, count=250)
     mesh = {"near": 0.1, "size": 0.5, "around": 16} if book.quick else {"near": 0.06, "size": 0.25}
     reach = 5.0 if book.quick else 8.7
     found = curves(book, lead=4.0 if book.quick else 8.7, reach=reach, **mesh)
