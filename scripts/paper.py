@@ -23,6 +23,7 @@ BOTH = ("interfaces.interface_left", "interfaces.interface_right")
 # What is varied, and how: (words, sets, geo).
 VARIANTS = (
     ("as chosen", {}, {}),
+    ("tau = 20 ms", {"loads.surface.pressure.duration": "20 ms"}, {}),
     ("pipes' axes 1.8 m apart", {}, {"spacing": 1.8}),
     ("pipes' axes 3.6 m apart", {}, {"spacing": 3.6}),
     ("4 m is the depth of the axis, not of the crown", {}, {"crown": 3.4}),
@@ -45,10 +46,12 @@ VARIANTS = (
 COLUMNS = (
     ("A.uy down", "A.uy", -1e3, "mm"),
     ("A.uy up", "A.uy", 1e3, "mm"),
+    ("C.uy down", "C.uy", -1e3, "mm"),
+    ("C.uy up", "C.uy", 1e3, "mm"),
     ("H.ux", "H.ux", 1e3, "mm"),
     ("K.ux", "K.ux", 1e3, "mm"),
-    ("A.ay", "A.ay", 1.0, "m/s2"),
 )
+ARRIVED = 0.02  # [s]: the wave has passed A, the base has sent nothing back yet
 
 
 def run(book, duration, sets, geo):
@@ -74,11 +77,19 @@ def figure(number, title, columns, scale, unit, results):
 def peak(result, column, scale):
     """The largest value in the direction of the scale's sign; for one-signed columns, the largest of either sign."""
     values = scale * result.histories[column]
-    return values.max() if column == "A.uy" else values[np.abs(values).argmax()]
+    return values.max() if column.endswith(".uy") else values[np.abs(values).argmax()]
+
+
+def acceleration(result, until=np.inf):
+    """The largest A.ay of either sign [m/s2] and its time [ms], as text."""
+    t, a = result.histories["t"], result.histories["A.ay"]
+    at = np.argmax(np.abs(a) * (t <= until))
+    return f"{a[at]:.4g} ({1e3 * t[at]:.1f})"
 
 
 def row(words, result):
     cells = [f"{peak(result, column, scale):.4g}" for _, column, scale, _ in COLUMNS]
+    cells += [acceleration(result, ARRIVED), acceleration(result)]
     contact = result.summary["contact"]
     return f"| {words} | {' | '.join(cells)} | {1e3 * contact['max_open']:.3f} | {1e3 * contact['max_slip']:.3f} |\n"
 
@@ -100,11 +111,13 @@ and beta = {alpha_beta['beta']:.4e} s come from 5 % in the first two modes.
     head = "".join(f" {name} [{unit}] |" for name, _, _, unit in COLUMNS)
     text += f"""
 ## What hangs on what the paper leaves open
-tau = 50 ms, 100 ms of time, 100 kPa; peaks. The first acceleration peaks follow the element size and the time step, because the
-load jumps at t = 0.
+tau = 50 ms where no other is said, 100 ms of time, 100 kPa; peaks. Of A.ay, the largest of either sign with its time in ms: until
+{1e3 * ARRIVED:.0f} ms, which is the wave passing, and of all 100 ms. The latter stands for another event in each row, most often a joint
+that closes, and rows of it must not be compared as if they were one. No acceleration here is a converged number: the load jumps at
+t = 0, and peaks follow the element size and the time step.
 
-| variant |{head} gap [mm] | slip [mm] |
-|---|{'---|' * (len(COLUMNS) + 2)}
+| variant |{head} A.ay until {1e3 * ARRIVED:.0f} ms [m/s2] (ms) | A.ay [m/s2] (ms) | gap [mm] | slip [mm] |
+|---|{'---|' * (len(COLUMNS) + 4)}
 """
     text += "".join(row(words, run(book, 50, sets, geo)) for words, sets, geo in VARIANTS)
     text += """

@@ -54,10 +54,10 @@ fn middle(drawing: &mut Drawing, a: usize, b: usize) -> usize {
 /// s_xx = s_yy = E / (1 + nu)(1 - 2 nu) 1e-3 = 1600, s_xy = G 1e-3 = 400.
 #[test]
 fn a_uniform_strain_on_the_edge_is_uniform_inside() {
-    for shape in SHAPES {
+    for (shape, quad4) in SHAPES.map(|shape| (shape, "standard")).into_iter().chain([(Shape::Quad4, "b_bar")]) {
         let mesh = macneal_harder(shape);
         let json = json!({ "materials": { "plate": { "young": 1e6, "poisson": 0.25, "density": 1 } },
-                           "time": { "step": 1, "end": 1 } });
+                           "elements": { "quad4": quad4 }, "time": { "step": 1, "end": 1 } });
         let model = support::model(&json, &mesh);
         let system = System::new(&model).unwrap();
         let exact = |[x, y]: [f64; 2]| [1e-3 * (x + y / 2.), 1e-3 * (y + x / 2.)];
@@ -82,14 +82,18 @@ fn a_uniform_strain_on_the_edge_is_uniform_inside() {
             [(u[0] - exact[0]).abs(), (u[1] - exact[1]).abs()]
         });
         let error = error.fold(0., f64::max) / 3e-4;
-        println!("{shape:?}: displacement {error:.1e}");
-        assert!(error < 1e-9, "{shape:?}: displacement {error:.1e}");
+        println!("{shape:?} {quad4}: displacement {error:.1e}");
+        // round-off of a system of at most 50 unknowns
+        assert!(error < 1e-12, "{shape:?} {quad4}: displacement {error:.1e}");
         let recovery = Recovery::new(&model, &Sites::new(&model));
         let at_centres = recovery.stresses(&displacements);
         let at_nodes = recovery.nodal_stresses(&displacements, &at_centres);
-        for stress in at_centres.into_iter().map(|cell| cell.stress).chain(at_nodes) {
+        let (centres, nodes) =
+            (at_centres.iter().map(|cell| (cell.stress, 1e-12)), at_nodes.iter().map(|s| (*s, 1e-11)));
+        // at the nodes a least-squares fit of them adds its own round-off
+        for (stress, tolerance) in centres.chain(nodes) {
             for (s, exact) in stress.into_iter().zip([1600., 1600., 800., 400.]) {
-                assert!((s / exact - 1.).abs() < 1e-9, "{shape:?}: {s} for {exact}");
+                assert!((s / exact - 1.).abs() < tolerance, "{shape:?} {quad4}: {s} for {exact}");
             }
         }
     }

@@ -18,6 +18,14 @@ def peak(x, y):
     return x[i] - b / (2 * a), c - b**2 / (4 * a)
 
 
+# (words, degrees, column, value, scale, unit, half of the last printed digit)
+PRINTED = [
+    ("hoop stress, inner, springline", 0, "hoop_inner", -1.1171, 1e6, "MPa", 5e-5), ("hoop stress, inner, crown", 90, "hoop_inner", 0.3997, 1e6, "MPa", 5e-5),
+    ("hoop stress, outer, springline", 0, "hoop_outer", 0.1383, 1e6, "MPa", 5e-5), ("hoop stress, outer, crown", 90, "hoop_outer", -0.6565, 1e6, "MPa", 5e-5),
+    ("u_r, springline", 0, "u_r", 0.001749, 1e-3, "mm", 5e-7), ("u_r, crown", 90, "u_r", -0.002874, 1e-3, "mm", 5e-7),
+    ("N, springline", 0, "N", -79.182, 1e3, "kN/m", 5e-4), ("N, crown", 90, "N", -40.395, 1e3, "kN/m", 5e-4),
+    ("M, springline", 0, "M", 4.0134, 1e3, "kNm/m", 5e-5), ("M, crown", 90, "M", -3.3705, 1e3, "kNm/m", 5e-5),
+]
 STUCK = {"interfaces.interface.normal_stiffness": 1e14, "interfaces.interface.tangential_stiffness": 1e14,
          "materials.soil.friction": 100}
 
@@ -34,10 +42,15 @@ def joint_means(frame):
 def page(book):
     geo = {"far": 20, "octant": 6} if book.quick else {"far": 80, "octant": 12}
     tolerance = 0.02 if book.quick else 0.005
-    why = "0.5 % is the book's aim; 2 % in the quick form, whose edges are only 20 radii away and tell most in the small hoop stress outside"
+    quick = (0.02, "edges only 20 radii away, which tell most in the small hoop stress outside")
+    why = "0.5 % is the book's aim"
     exact = Ring(SOIL, PIPE, INNER, OUTER, PRESSURE, K, friction=True)
-    rings = last(book.run("buried_pipe", geo=geo, bonded=True).rings())
+    bonded = book.run("buried_pipe", geo=geo, bonded=True)
+    rings = last(bonded.rings())
     rows = compared("bonded", rings, exact, tolerance, why)
+    rows += [Row(f"printed: {title}", value, at(rings, degrees, column) / scale, tolerance + half / abs(value), unit, quick=quick,
+                 why=why + "; and half of the last printed digit")
+             for title, degrees, column, value, scale, unit, half in PRINTED]
     theta = np.radians(np.linspace(0, 90, 9001))
     s_n, tau = exact.contact(theta)
     best = np.argmax(abs(tau / s_n))
@@ -47,6 +60,9 @@ def page(book):
                     peak(angles, shear)[1] / 1e3, tolerance, "kPa", why=why_joints))
     angle, ratio = peak(angles, shear / normal)
     rows.append(Row("stuck joint: largest |tau/s_n|", abs(tau / s_n)[best], ratio, tolerance, why=why_joints))
+    rows.append(Row("the same, printed: 0.3514", 0.3514, ratio, tolerance + 1.5e-4, why=why_joints + "; and half of the last printed digit"))
+    rows.append(Row("its angle, printed: 36.16", 36.16, angle, 0.5, "degrees", relative=False,
+                    why="a flat top between joints 3.75 (quick: 7.5) degrees long"))
     rows.append(Row("its angle from the springline", np.degrees(theta[best]), angle, 0.5, "degrees", relative=False,
                     why="a flat top between joints 3.75 (quick: 7.5) degrees long"))
 
@@ -73,7 +89,7 @@ def page(book):
                 f"elements round, edges {geo['far']} outer radii away.",
         reference="As for the elastic ring: Michell's solution in both bodies, `scripts/book/ring_theory.py`; "
                   "s_r(b) = -99.647 + 30.247 cos 2 theta kPa, tau = -33.361 sin 2 theta kPa, theta from the springline.",
-        rows=rows, plot=plot,
+        rows=rows, plot=plot, example=(bonded, "N, M and hoop stresses are the columns of rings.csv at 0 and 90 degrees."),
         tables=[("How far away the edges must be (bonded)",
                  ["half-width / outer radius", "half-width / diameter", "hoop stress, inner, springline [MPa]", "its error",
                   "largest error of the rows above"], cells)],
@@ -81,5 +97,5 @@ def page(book):
               "mid-sides swing about the mean (`rings.csv` gives it at the rays); means over joints are not, and tau is taken from "
               "them, with a joint of 1e14 Pa/m that neither opens nor slips. 1 % needs "
               "edges at 10 to 15 diameters only where pressures are put on the edges as here.",
-        code=["scripts/book/ring_theory.py", "src/results/ring.rs", "geo/verification/ring.geo"],
+        code=["scripts/book/ring_theory.py", "src/results/ring.rs::sections", "src/results/hoop.rs::at", "geo/verification/ring.geo"],
     )

@@ -9,7 +9,8 @@ MASS, SPRING, HEIGHT, G = 1, 1e4, 0.1, 9.81
 
 def page(book):
     dt = 1e-4 if book.quick else 2e-5
-    h = book.run("drop", sets={"time.step": dt}).histories
+    run = book.run("drop", sets={"time.step": dt})
+    h = run.histories
     t, u, v = (h[k] for k in ["t", "FOOT.uy", "FOOT.vy"])
     speed = np.sqrt(2 * G * HEIGHT)
     omega = np.sqrt(SPRING / MASS)
@@ -30,9 +31,9 @@ def page(book):
         Row("height after the first jump", 0, u[(t > crossing[1]) & (t < crossing[2])].max(), 1e-3 * HEIGHT, "m", relative=False,
             why="0.1 %: a step that begins or ends inside contact keeps energy only as dt goes to zero"),
     ]
-    printed = [1.400714, 0.01502245, 150.2245, 0.03281436, 0.31838298]
-    rows += [Row(f"formula of the row \"{row.quantity}\" beside the printed value", p, row.reference, 5e-7, row.unit,
-                 why="printed digits") for row, p in zip(rows, printed)]
+    printed = ["1.400714", "0.01502245", "150.2245", "0.03281436", "0.31838298"]
+    rows += [Row(f"{row.quantity}, printed: {p}", float(p), row.value, row.tolerance, row.unit, why=row.why)
+             for row, p in zip(rows, printed)]
 
     def plot(axes):
         axes.plot(t, 1e3 * u, label="program")
@@ -47,8 +48,10 @@ def page(book):
                 "since the key `gravity` would start from equilibrium, and there is none above an open joint.",
         reference="v = sqrt(2 g h); compression g/w^2 + sqrt((g/w^2)^2 + (v/w)^2); contact (2 pi - 2 atan(v w / g)) / w; period "
                   "2 v / g + contact.",
-        rows=rows, code=["src/physics/joint.rs", "src/solve/contact.rs"], plot=plot,
-        notes="Two bounces are followed without any loss put in.",
+        rows=rows, code=["src/physics/joint.rs::respond", "src/solve/contact.rs"], plot=plot,
+        example=(run, "the deepest compression is -0.1 m less the smallest `FOOT.uy` in histories.csv."),
+        notes="Two bounces are followed without any loss put in. The block is one element of steel-like stiffness, not a point: its own "
+              "compliance and vibration are the 2e-5 of the tolerances, and the greatest force is a mean over 0.2 ms.",
     )
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.lib import Page, Row, order, reference, step
+from book.lib import Page, Row, reference, step
 
 DEPTHS = {"z0": "w_z0", "z4": "w_z4", "z46": "w_z4.6", "z52": "w_z5.2", "z10": "w_z10"}  # probe: column of the reference
 PULSES = {
@@ -54,7 +54,6 @@ def errors(history, exact):
 
 def page(book):
     sizes = [0.2, 0.1] if book.quick else [0.2, 0.1, 0.05]
-    largest, rms_limit = (15, 3) if book.quick else (8, 1)  # [um]
     rows, tables, shown = [], [], {}
     for base in BASES:
         for pulse in PULSES if not book.quick else ["step", "tri50"]:
@@ -67,11 +66,13 @@ def page(book):
             name = f"{base} base, {pulse}"
             why = ("every pulse starts with the same jump of 73 mm/s in velocity, which the mesh smears over about 0.1 ms, and "
                    "over a time that falls with h^(2/3); 73 mm/s times 0.1 ms is 7 um")
-            rows.append(Row(f"{name}: w at five depths, largest error", 0, found[-1][0], largest, "um", relative=False, why=why))
-            rows.append(Row(f"{name}: w at five depths, rms error", 0, found[-1][1], rms_limit, "um", relative=False, why=why))
-            observed = order(sizes, [rms for _, rms in found])
-            rows.append(Row(f"{name}: observed order of the rms error", 2 / 3, observed, 0.05, relative=False, bound="least",
-                            why=why))
+            rows.append(Row(f"{name}: w at five depths, largest error", 0, found[-1][0], 8, "um", relative=False, why=why,
+                            quick=(15, "h = 0.1 m")))
+            rows.append(Row(f"{name}: w at five depths, rms error", 0, found[-1][1], 1, "um", relative=False, why=why,
+                            quick=(3, "h = 0.1 m")))
+            observed = float(np.polyfit(np.log(sizes), np.log([rms for _, rms in found]), 1)[0])
+            rows.append(Row(f"{name}: observed order of the rms error, line through all meshes", 2 / 3, observed, 0, relative=False,
+                            bound="least", why="a jump that is smeared over a time of h^(2/3)"))
             peak = 1e3 * abs(exact["w_z0"]).max()
             tables.append([name, f"{peak:.0f}"] + [f"{big:.1f}, {rms:.2f}" for big, rms in found]
                           + [f"{100 * found[-1][0] / peak:.2f}", f"{observed:.2f}"])
@@ -120,7 +121,10 @@ def page(book):
         tables=[("Error of w over 150 ms [um]: largest, rms",
                  ["case", "largest w(0)", *(f"h = {size:g} m" for size in sizes), "largest error, % of w", "order of rms"], tables)],
         notes="The reference is sampled every 1 ms; whether a sample meets the ringing at a front is chance, so the largest error "
-              "falls less evenly than the rms. In the triangle of 20 ms the ground moves little and the same error in um is the "
+              "falls less evenly than the rms. The half base under a step shows it: its largest error, 2.4, 2.3 and 1.4 um with h = 0.1, "
+              "0.05 and 0.025 m, is always that at 10 m and 16 ms, 0.13 ms before the front is there at 16.13 ms; it falls only once the "
+              "smeared front has become narrower than that, while at all other samples the largest falls from 0.85 to 0.29 and 0.17 um. "
+              "Between two meshes the order of the rms hangs on such a sample; so it is taken through three. In the triangle of 20 ms the ground moves little and the same error in um is the "
               "largest share. Element height h and time step h/(1000 m/s) are halved together. The load jumps at t = 0, so the velocity at "
               "a front is a jump too: it is the displacement that is compared. The order seen is that of a smeared jump, not "
               "that of the elements.",

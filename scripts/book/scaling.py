@@ -33,12 +33,24 @@ def page(book):
     rows.append(Row("with gravity, which must break it: the same for p x 7.3", 1e-4,
                     differ(histories(book, 1, heavy), histories(book, 7.3, heavy), 7.3), 0, relative=False, bound="least",
                     why="prestress has a scale of its own: shows that the rows above can fail"))
+    larger = histories(book, 7.3)
+
+    def plot(axes):
+        for run, factor, mark in [(one, 1, "-"), (larger, 7.3, "--")]:
+            for probe, colour in [("A.uy", "C0"), ("C.uy", "C1")]:
+                axes.plot(1e3 * run.histories["t"], 1e3 * run.histories[probe] / factor, colour + mark, label=f"{probe} / {factor:g}",
+                          linewidth=2.2 if factor == 1 else 1, alpha=0.5 if factor == 1 else 1)
+        axes.set(xlabel="t [ms]", ylabel="displacement / factor of the pressure [mm]")
+        axes.grid(alpha=0.3)
+        axes.legend()
+
     return Page(
         "scaling", "Homogeneity: U(lambda p) = lambda U(p)", [24],
         problem="The default twin pipes under a blast of 5 ms, which opens and slips the joints, with the peak pressure times 7.3 and "
                 "times 0.001.",
         reference="Linear solids and joints without gap, cohesion or prestress have no stress of their own to compare with: every "
                   "displacement is proportional to the pressure.",
-        rows=rows, code=["src/physics/joint.rs", "src/solve/contact.rs", "tests/invariants.rs"],
-        notes="So the paper's lost peak pressure only scales its curves, as long as nothing but the blast acts.",
+        rows=rows, code=["src/physics/joint.rs::respond", "src/solve/contact.rs", "tests/invariants.rs"], plot=plot,
+        notes="Assumed: joints closed without pressure at the start, no gap, no gravity, no limit to the solids' strength. Newton's test "
+              "is relative, so it scales too. So the paper's lost peak pressure only scales its curves, as long as nothing but the blast acts.",
     )

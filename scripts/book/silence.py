@@ -66,6 +66,18 @@ def page(book):
                     relative=False, why="round-off: the mean stress of an element is exact in one dimension"))
     rows.append(Row("gravity in the column, no load: largest displacement", 0, motion(settled), 1e-12, "m", relative=False,
                     why="round-off: the ground has settled by millimetres before"))
+
+    def plot(axes):
+        for i, colour, when in [(1, "C0", "20 ms"), (2, "C1", "40 ms"), (3, "C2", "60 ms")]:
+            a, b = column.frame(i), wide.frame(i)
+            axes.plot(-1e3 * b.displacement[:, 1], -b.points[:, 1], colour + ".", markersize=2)
+            order = np.argsort(a.points[:, 1])
+            axes.plot(-1e3 * a.displacement[order, 1], -a.points[order, 1], colour, linewidth=0.8, label=when)
+        axes.set(xlabel="settlement [mm]", ylabel="depth [m]")
+        axes.invert_yaxis()
+        axes.grid(alpha=0.3)
+        axes.legend(title="line: column, dots: all nodes of 25 m of ground")
+
     return Page(
         "silence", "Silence, and ground without pipes", [26],
         problem="The paper's ground and pipes with open joints: no load; gravity and no load; and the same ground without "
@@ -77,5 +89,6 @@ def page(book):
               "exactly at the limit of friction, and round-off calls them sticking in one step and slipping in the next: "
               f"{changes} changes of the name here, with the slips and tractions of the table. The comparison with the column "
               "needs ground without holes; pipes made of soil would still be hollow.",
-        code=["src/solve/start.rs", "src/results/histories.rs", "geo/twin_pipes.geo", "geo/verification/layered_column.geo"],
+        plot=plot, example=(heavy, "no column of histories.csv leaves zero by more than round-off."),
+        code=["src/solve/start.rs::under_gravity", "src/results/histories.rs", "geo/twin_pipes.geo", "geo/verification/layered_column.geo"],
     )

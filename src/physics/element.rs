@@ -184,17 +184,22 @@ mod tests {
     /// Relative to the largest eigenvalue the zero ones are round-off, the smallest elastic one is above 1e-3.
     #[test]
     fn an_element_has_exactly_three_rigid_modes() {
+        let count = |k: DMatrix<f64>| {
+            let eigen = k.symmetric_eigenvalues();
+            eigen.iter().filter(|e| e.abs() < 1e-8 * eigen.max()).count()
+        };
         for shape in SHAPES {
             let points = points(shape, &distorted(shape), Integral::Stiffness);
-            let eigen = stiffness(&points, &STEEL.plane_strain()).symmetric_eigenvalues();
-            let zeros = eigen.iter().filter(|e| e.abs() < 1e-8 * eigen.max()).count();
-            assert_eq!(zeros, 3, "{shape:?}");
+            assert_eq!(count(stiffness(&points, &STEEL.plane_strain())), 3, "{shape:?}");
         }
+        let points = points(Shape::Quad4, &distorted(Shape::Quad4), Integral::Stiffness);
+        assert_eq!(count(b_bar_stiffness(&points, &STEEL)), 3, "B-bar");
     }
 
-    /// T6 with straight sides by 3 points is exact, curved it is not: the linear field's energy is, in both, dv being summed.
+    /// u = 1e-3 (x + y / 2, y + x / 2): stress 1600, 1600, 400; u'K u = integral of sigma . epsilon = 3.6 times the area that
+    /// the points sum to, curved sides and B-bar included.
     #[test]
-    fn a_linear_field_gives_its_exact_strain_and_energy() {
+    fn a_linear_field_gives_its_exact_stress_and_energy() {
         for shape in SHAPES {
             let nodes = distorted(shape);
             let u = DVector::from_iterator(
@@ -202,7 +207,13 @@ mod tests {
                 nodes.iter().flat_map(|[x, y]| [1e-3 * (x + y / 2.), 1e-3 * (y + x / 2.)]),
             );
             let d = STEEL.plane_strain();
-            for p in points(shape, &nodes, Integral::Stiffness) {
+            let points = points(shape, &nodes, Integral::Stiffness);
+            let energy = 3.6 * points.iter().map(|p| p.dv).sum::<f64>();
+            let b_bar = (shape == Shape::Quad4).then(|| b_bar_stiffness(&points, &STEEL));
+            for k in b_bar.into_iter().chain([stiffness(&points, &d)]) {
+                assert!((u.dot(&(k * &u)) / energy - 1.).abs() < 1e-13, "{shape:?}");
+            }
+            for p in points {
                 let stress = d * p.b() * &u;
                 for (s, exact) in stress.iter().zip([1600., 1600., 400.]) {
                     assert!((s - exact).abs() < 1e-9, "{shape:?}: {s}");

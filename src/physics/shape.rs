@@ -156,8 +156,12 @@ mod tests {
             3 => vec![[0., 0.], [1., 0.], [0., 1.]],
             _ => SQUARE.to_vec(),
         };
-        for (shape, _) in FACES {
-            let mut nodes = corners(shape);
+        for shape in FACES.iter().chain(&LINES).map(|(shape, _)| *shape) {
+            let mut nodes = match shape {
+                Shape::Line2 => vec![[-1., 0.], [1., 0.]],
+                Shape::Line3 => vec![[-1., 0.], [1., 0.], [0., 0.]],
+                _ => corners(shape),
+            };
             for side in shape.sides().iter().filter(|s| s.len() == 3) {
                 let (a, b) = (nodes[side[0]], nodes[side[1]]);
                 nodes.push([(a[0] + b[0]) / 2., (a[1] + b[1]) / 2.]);
