@@ -64,9 +64,10 @@ def calculate(name: str, quick: bool) -> Page | str:
         page = importlib.import_module(f"book.{name}").page(runs)
         page.name, page.commands = name, runs.commands
         code_links(page)
-    except (Failed, KeyError, IndexError, ValueError, OSError) as why:
-        print(f"book: {name} gives no result: {why if isinstance(why, Failed) else repr(why)}", file=sys.stderr)
-        return str(why) if isinstance(why, Failed) else f"{type(why).__name__}: {why}"
+    except (Failed, KeyError, IndexError, ValueError, OSError) as error:
+        why = sentence(error)
+        print(f"book: {name} gives no result: {why}", file=sys.stderr)
+        return why
     for row in page.rows:
         if not row.holds(quick):
             print(f"book: {name}: {row.quantity} is {row.value:.8g} {row.unit} and should be {row.reference:.8g}: the "
@@ -74,6 +75,14 @@ def calculate(name: str, quick: bool) -> Page | str:
     print(f"{name:28} {len(page.rows):4} numbers {'hold' if page.holds(quick) else 'MISS'} {time.monotonic() - started:6.1f} s",
           flush=True)
     return page
+
+
+def sentence(error: Exception) -> str:
+    if isinstance(error, Failed):
+        return str(error)
+    if isinstance(error, KeyError):
+        return f"the results have no {error}; the program is older or newer than the book (`make book` builds it first)"
+    return f"{type(error).__name__}: {error}"
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ def page(book):
                 "0.9375 and nu' = nu/(1 + nu) = 0.25 the in-plane equations are the same.",
         reference="R. D. Cook, *J. Struct. Div. ASCE* 100 (1974); converged value 23.9677 at the middle of the end and 25.19 at its "
                   "corner. The values of the standard Q4 on N x N elements come from an independent program.",
-        rows=rows, plot=plot,
+        rows=rows, plot=plot, example=(runs[-1], "v(48, 52) and v(48, 60) of Q8 are the last `C.uy` and `D.uy` in histories.csv."),
         tables=[("v(48, 52)", ["element", *(f"{n} x {n}" for n in divisions), "order"], cells)],
         notes="B-bar in plane strain is no plane-stress element: out-of-plane strain is zero in both, so that it may be used here. "
               "The order is the slope between the two finest meshes.",

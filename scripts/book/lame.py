@@ -8,6 +8,11 @@ A, B = 0.4, 0.6  # radii [m]
 E, NU = 210e9, 0.3
 ELEMENTS = {"T3": (3, 1), "Q4": (4, 1), "T6": (3, 2), "Q8": (4, 2)}  # name: corners, order
 STRESS_ORDER = {"T3": 1.5, "Q4": 2, "T6": 2, "Q8": 3}
+# printed values: radius: (u [m], s_theta [MPa])
+PRINTED = {
+    "p_o = 1 MPa": {0.4: (-6.24e-6, -3.6), 0.5: (-5.794286e-6, -2.952), 0.6: (-5.645714e-6, -2.6)},
+    "p_i = 1 MPa": {0.4: (5.249524e-6, 2.6), 0.5: (4.556190e-6, 1.952), 0.6: (4.16e-6, 1.6)},
+}
 
 
 def constants(p_inner, p_outer):
@@ -80,6 +85,8 @@ def page(book):
             rows.append(Row(f"{title}: u({r:g})", displacement(r, p_inner, p_outer), u, 1e-4, "m", why=why))
             why = "mean of the nodal stress at the radius"
             rows.append(Row(f"{title}: s_theta({r:g})", (c + d / r**2) / 1e6, s_t / 1e6, 1e-3, "MPa", why=why))
+            for name, printed, found, unit, tolerance in zip(["u", "s_theta"], PRINTED[title][r], [u, s_t / 1e6], ["m", "MPa"], [1e-4, 1e-3]):
+                rows.append(Row(f"{title}: {name}({r:g}), printed: {printed:g}", printed, found, tolerance, unit, why="as of the row of the formula"))
             rows.append(Row(f"{title}: s_r({r:g})", (c - d / r**2) / 1e6, s_r / 1e6, 2e-3, "MPa", relative=False, why=why))
 
     def plot(axes):

@@ -117,7 +117,7 @@ def page(book):
         reference="Histories: exact solution by characteristics, computed independently of the program "
                   "(scripts/book/reference). Frequencies: zeros of the product of the layers' transfer matrices, computed "
                   "here. Static settlement: sum of p h/M.",
-        rows=rows, plot=plot,
+        rows=rows, plot=plot, example=(static, "the static settlement is the last -`z0.uy` in histories.csv."),
         tables=[("Error of w over 150 ms [um]: largest, rms",
                  ["case", "largest w(0)", *(f"h = {size:g} m" for size in sizes), "largest error, % of w", "order of rms"], tables)],
         notes="The reference is sampled every 1 ms; whether a sample meets the ringing at a front is chance, so the largest error "
@@ -128,5 +128,5 @@ def page(book):
               "largest share. Element height h and time step h/(1000 m/s) are halved together. The load jumps at t = 0, so the velocity at "
               "a front is a jump too: it is the displacement that is compared. The order seen is that of a smeared jump, not "
               "that of the elements.",
-        code=["src/solve/newmark.rs", "src/solve/start.rs", "src/solve/modes.rs", "geo/verification/layered_column.geo"],
+        code=["src/solve/newmark.rs::Constants", "src/solve/start.rs::with_acceleration", "src/solve/modes.rs::natural_modes", "geo/verification/layered_column.geo"],
     )

@@ -27,7 +27,8 @@ def page(book):
     rows, found = [], {}
     for td, printed in PRINTED.items():
         sets = {"time.step": dt, "loads.top_1.pressure.duration": td}
-        found[td] = abs(book.run("load_factor", sets=sets).histories["P1.uy"]).max()
+        run = book.run("load_factor", sets=sets)
+        found[td] = abs(run.histories["P1.uy"]).max()
         rows.append(Row(f"load factor at td / T = {td:g}", factor(td), found[td], tolerance, relative=False,
                         why="(omega dt)^2 / 4: error of the method, and of a maximum between two steps"))
         rows.append(Row(f"the same, printed: {printed:.5f}", printed, found[td], tolerance + 5e-6, relative=False,
@@ -46,7 +47,8 @@ def page(book):
                 "paper's blast.",
         reference="The closed solution: 1 - cos wt + sin wt / (w td) - t / td until td, free vibration after it; its greatest value "
                   "computed here, and as printed by J. M. Biggs (Introduction to Structural Dynamics) to five digits.",
-        rows=rows, code=["src/physics/pulse.rs", "src/solve/start.rs", "src/solve/newmark.rs"], plot=plot,
+        rows=rows, code=["src/physics/pulse.rs::at", "src/solve/start.rs::with_acceleration", "src/solve/newmark.rs::Constants"], plot=plot,
+        example=(run, "the factor at td / T = 10 is the largest -`P1.uy` in histories.csv, in m since p / k = 1 m."),
         notes="The acceleration at t = 0 is p / m. A start from a = 0 would miss half a step of the load, pi dt / T in the "
               "factor at short pulses: 1.6e-3 here, a thousand times the tolerance.",
     )

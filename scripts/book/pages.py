@@ -102,7 +102,8 @@ def to_run(page: Page) -> str:
     result, number = page.example or (None, "")
     example = result.command if result else min(page.commands, key=len)
     text = "Case files: " + (", ".join(link(path) for path in files_of(page.commands)) or "written by the page's script") + ".\n\n"
-    text += f"```sh\n{short(example)}\n```\n" + (f"\n{number}\n" if number else "")
+    number = number or f"The numbers are taken from its results by [`{MODULES}/{page.name}.py`](../../{MODULES}/{page.name}.py)."
+    text += f"```sh\n{short(example)}\n```\n\n{number}\n"
     others = [short(command) for command in page.commands if command != example]
     if others:
         listed = "\n".join(dict.fromkeys(others))

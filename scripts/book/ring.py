@@ -61,6 +61,17 @@ def slip_at_45(frame):
     return abs((frame.displacement[a] - frame.displacement[b]) @ [-1, 1]) / np.sqrt(2)
 
 
+# (degrees, column, scale, unit): printed value (bonded, frictionless)
+PRINTED = {
+    (0, "hoop_inner", 1e6, "MPa"): (-5.02567, -5.89967), (0, "hoop_outer", 1e6, "MPa"): (1.89894, 3.45384),
+    (0, "N", 1e3, "kN/m"): (-143.772, -105.777), (0, "M", 1e3, "kNm/m"): (5.7543, 7.7731),
+    (0, "sigma_n", 1e3, "kPa"): (-111.862, -73.390), (0, "u_r", 1e-3, "mm"): (0.633766, 0.866775),
+    (90, "hoop_inner", 1e6, "MPa"): (2.96925, 3.84324), (90, "hoop_outer", 1e6, "MPa"): (-3.76001, -5.31491),
+    (90, "N", 1e3, "kN/m"): (-51.588, -89.584), (90, "M", 1e3, "kNm/m"): (-5.5919, -7.6106),
+    (90, "sigma_n", 1e3, "kPa"): (-83.499, -121.970), (90, "u_r", 1e-3, "mm"): (-0.691757, -0.924766),
+}
+
+
 def page(book):
     geo = {"far": 20, "octant": 6} if book.quick else {"far": 80, "octant": 12}
     tolerance = 0.02 if book.quick else 0.005
@@ -82,12 +93,20 @@ def page(book):
             rows.append(Row("frictionless: open points of the joint", 0, run.summary["contact"]["max_open_points"], 0,
                             relative=False, why="a count: the ground presses everywhere"))
         pictures.append((title, rings, exact))
+        for (degrees, column, scale, unit), values in PRINTED.items():
+            value = values[0 if bonded else 1]
+            place = "springline" if degrees == 0 else "crown"
+            rows.append(Row(f"{title}, {place}: {column}, printed: {value:g}", value, at(rings, degrees, column) / scale, tolerance, unit, why=why))
 
     rough = last(book.run("ring", geo=geo, sets={"materials.soil.friction": 0.3}).rings())
-    between = [at(rings, 0, "N") / 1e3 for rings in (pictures[0][1], rough, pictures[1][1])]
     why = "friction lies between none and no slip"
-    rows.append(Row("mu = 0.3, springline: N, above the bonded", between[0], between[1], 0, "kN/m", bound="least", why=why))
-    rows.append(Row("mu = 0.3, springline: N, below the frictionless", between[2], between[1], 0, "kN/m", bound="most", why=why))
+    for place, degrees in [("springline", 0), ("crown", 90)]:
+        for name, column, scale, unit in [("N", "N", 1e3, "kN/m"), ("M", "M", 1e3, "kNm/m"), ("contact stress", "sigma_n", 1e3, "kPa"),
+                                          ("u_r", "u_r", 1e-3, "mm")]:
+            bonded, found, smooth = (at(rings, degrees, column) / scale for rings in (pictures[0][1], rough, pictures[1][1]))
+            for limit, words, bound in [(bonded, "bonded", "least" if bonded < smooth else "most"),
+                                        (smooth, "frictionless", "most" if bonded < smooth else "least")]:
+                rows.append(Row(f"mu = 0.3, {place}: {name}, on this side of the {words}", limit, found, 0, unit, bound=bound, why=why))
 
     def plot(axes):
         for (title, rings, exact), color in zip(pictures, ["C0", "C1"]):

@@ -21,8 +21,9 @@ def settlement(depth, t):
 def page(book):
     size = 0.1 if book.quick else 0.05
     steps = 800 if book.quick else 1600
-    history = book.run("uniform_column", geo={"size": size}, sets={
-        "time": {"step": 2 * PERIOD / (2 * steps), "end": 2 * PERIOD}, "output": {"every": PERIOD}}).histories
+    run = book.run("uniform_column", geo={"size": size}, sets={
+        "time": {"step": 2 * PERIOD / (2 * steps), "end": 2 * PERIOD}, "output": {"every": PERIOD}})
+    history = run.histories
     t, top, middle = history["t"], -history["top.uy"], -history["middle.uy"]
     peak = 2 * P * H / E
     rows = []
@@ -57,7 +58,7 @@ def page(book):
         problem="H = 10 m, E = 50 MPa, nu = 0, rho g = 20 kN/m3 (g = 9.81 m/s2) on a rigid base between rollers; 100 kPa on "
                 "the surface from t = 0 on.",
         reference="d'Alembert: w(0) = p t/(rho c) until 2H/c, back to 0 at 4H/c = 0.2554 s, and so on.",
-        rows=rows, plot=plot,
+        rows=rows, plot=plot, example=(run, "w is -`top.uy` and -`middle.uy` in histories.csv."),
         notes=f"Elements of {size:g} m, {steps} steps a period, consistent mass, trapezium rule, no damping.",
-        code=["src/solve/newmark.rs", "src/solve/start.rs", "geo/verification/uniform_column.geo"],
+        code=["src/solve/newmark.rs::Constants", "src/solve/start.rs::with_acceleration", "geo/verification/uniform_column.geo"],
     )

@@ -13,7 +13,8 @@ RISE = 0.02  # [s]
 
 def page(book):
     size = 0.1 if book.quick else 0.05
-    history = book.run("viscous_base", geo={"size": size}, sets={"time.step": size / C / 3}).histories
+    run = book.run("viscous_base", geo={"size": size}, sets={"time.step": size / C / 3})
+    history = run.histories
     t = history["t"]
     rows = []
     for name, depth in [("top", 0.0), ("middle", H / 2), ("base", H)]:
@@ -54,11 +55,12 @@ def page(book):
                 "the surface from t = 0 on.",
         reference="d'Alembert in a half-space: v = p/(rho c) = 6.96545e-5 m/s behind the front, c = 77.394 m/s, arrival at "
                   "10 m at 0.12921 s, and nothing returns (Lysmer and Kuhlemeyer 1969: exact at normal incidence).",
-        rows=rows, plot=plot,
+        rows=rows, plot=plot, example=(run, "v behind the front is `top.vy`, `middle.vy`, `base.vy` in histories.csv."),
         notes="The jump of the load contains waves too short for the mesh. With consistent mass and a step this "
               "short they travel faster than c: they run ahead of the front, as the picture shows, and ring behind it, "
               f"{100 * ringing:.1f} % of v (rms) at the surface after 2H/c, so that velocities are averaged; that "
               "nothing returns is therefore shown with a smooth rise of 20 ms. A "
-              "dashpot has no static stiffness: the column goes on moving, as a half-space does.",
-        code=["src/solve/assembly.rs", "src/solve/system.rs", "geo/verification/uniform_column.geo"],
+              "dashpot has no static stiffness: the column goes on moving, as a half-space does. A P wave at normal incidence meets "
+              "only the dashpots of rho c_p; those of rho c_s have the page `viscous_shear`.",
+        code=["src/solve/assembly.rs::dashpots", "src/solve/assembly.rs::dashpot_block", "geo/verification/uniform_column.geo"],
     )
