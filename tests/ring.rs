@@ -437,8 +437,8 @@ fn a_cut_between_sectors_of_unlike_length_shares_the_grounds_hold_by_them() {
     let sections = sections(&prepared, &statics(&prepared));
     let q = sections.iter().map(|s| s.shear_force.abs()).fold(0., f64::max) / (100e3 * 0.9);
     println!("uneven sectors: Q / (p a) {q:.1e}");
-    // a third of what equal shares make; what is left is the mesh's: the ground's nodal forces are not exactly radial
-    assert!(q < 1.5e-3);
+    // the box far away, which is not round, leaves 4e-6
+    assert!(q < 1e-4);
 }
 
 #[test]
