@@ -30,7 +30,9 @@ def interfaces(n, integration="lobatto"):
 
 def pressed(book, n, integration="lobatto"):
     """(run, x, p, force): pressure p where the law holds, from the axis outwards, and the whole force [N/m]."""
-    run = book.run("hertz", geo={"n": n}, sets={"interfaces": interfaces(n, integration)}, tag=f"n{n}_{integration}")
+    as_stored = (n, integration) == (32, "lobatto")  # the case file's own gaps
+    run = book.run("hertz", geo={} if as_stored else {"n": n}, tag=f"n{n}_{integration}",
+                   sets={} if as_stored else {"interfaces": interfaces(n, integration)})
     frame = run.frame()
     middles = np.array([frame.points[j].mean(axis=0)[0] for j in frame.joints])
     outwards = np.argsort(middles)
@@ -100,7 +102,7 @@ def page(book):
               "block and its profile x^2/2R stands in the gaps of as many interfaces as there are joints, as in Hertz' theory "
               "itself: that of a joint is the profile at its outer node. The block is 0.2 x 0.1 m, the rigid plane a strip 1e5 times as stiff. b and p0 are those of the straight "
               "line through p^2 over x^2 for x < 0.9 b. **What misses:** with one Gauss point a joint, as the paper has it, the pressures "
-              "zig-zag from joint to joint by 1 to 2 % of p0, and refinement does not mend it: pressures +q, -q, +q ... of joints of one "
+              "zig-zag from joint to joint by up to 4 % of p0, and refinement does not mend it: pressures +q, -q, +q ... of joints of one "
               "length put no force on any node between them, so that nothing but the ends of the contact and the joints' own compliance "
               "fixes q. The nodal forces, means of two neighbours, are right. Lobatto's points have no such pressure.",
         code=["src/physics/joint.rs::respond", "src/solve/interface.rs::rule", "src/solve/contact.rs", "geo/verification/hertz.geo"],

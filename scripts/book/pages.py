@@ -39,6 +39,8 @@ def bound_text(row: Row) -> str:
 
 def amount(value: float, row: Row) -> str:
     """An error or a tolerance."""
+    if value == 0:
+        return "0"
     if row.relative and value >= 1e-6:
         return f"{100 * value:.3g} %"
     return f"{value:.1e}" + ("" if row.relative or not row.unit else f" {row.unit}")
@@ -48,18 +50,18 @@ def rounded_up(row: Row) -> float:
     """The error; of a row that is right to round-off its decade, since the digits differ from machine to machine."""
     if row.tolerance > ROUND_OFF or not 0 < row.error < np.inf:
         return row.error
-    return max(1e-12, float(f"1e{np.ceil(np.log10(row.error)):.0f}"))
+    decade = max(1e-12, float(f"1e{np.ceil(np.log10(row.error)):.0f}"))
+    return decade if decade <= row.tolerance else row.error
 
 
 def error_text(row: Row) -> str:
-    if row.tolerance == 0 and row.error == 0:
-        return "0"
     unit = "" if row.relative or not row.unit else f" {row.unit}"
-    return f"< {rounded_up(row):.0e}{unit}" if 0 < row.tolerance <= ROUND_OFF and row.holds(False) else amount(row.error, row)
+    is_told_by_decade = 0 < row.tolerance <= ROUND_OFF and rounded_up(row) != row.error
+    return f"< {rounded_up(row):.0e}{unit}" if is_told_by_decade else amount(row.error, row)
 
 
 def value_text(row: Row) -> str:
-    is_round_off = row.reference == 0 and 0 < row.tolerance <= ROUND_OFF and row.holds(False)
+    is_round_off = row.reference == 0 and 0 < row.tolerance <= ROUND_OFF and rounded_up(row) != row.error
     return f"< {rounded_up(row):.0e}" if is_round_off else say(row.value)
 
 
@@ -74,7 +76,7 @@ def comparison(rows: list) -> str:
     reasons = list(dict.fromkeys(reason(row) for row in rows if reason(row)))
     mark = lambda row: f" ({reasons.index(reason(row)) + 1})" if reason(row) else ""
     cells = [[row.quantity, bound_text(row) + say(row.reference), value_text(row), row.unit, error_text(row),
-              (amount(row.tolerance, row) if row.tolerance else "0") + mark(row), "" if row.holds(False) else "**misses**"]
+              amount(row.tolerance, row) + mark(row), "" if row.holds(False) else "**misses**"]
              for row in rows]
     text = markdown_table(["quantity", "reference", "program", "unit", "error", "tolerance (reason)", ""], cells)
     return text + "\nReasons of the tolerances; `make test` runs the quick form on coarser meshes, with the same tolerance where none stands:\n\n" \

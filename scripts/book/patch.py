@@ -42,7 +42,7 @@ def page(book):
         axes.plot(*(frame.points + 60 * frame.displacement).T, "C0.", label="displacements of the program, 60 times")
         axes.plot(*(frame.points + 60 * displacement(frame.points)).T, "k+", label="exact")
         axes.set(aspect="equal", xlabel="x", ylabel="y")
-        axes.legend(loc="upper left", fontsize=8)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=3, fontsize=8)
 
     return Page(
         "patch", "Patch test (MacNeal and Harder)", [1],
