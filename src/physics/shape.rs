@@ -153,16 +153,14 @@ mod tests {
     #[test]
     fn each_function_is_one_at_its_node_and_zero_at_the_others() {
         let corners = |shape: Shape| match shape.corner_count() {
+            2 => vec![[-1., 0.], [1., 0.]],
             3 => vec![[0., 0.], [1., 0.], [0., 1.]],
             _ => SQUARE.to_vec(),
         };
         for shape in FACES.iter().chain(&LINES).map(|(shape, _)| *shape) {
-            let mut nodes = match shape {
-                Shape::Line2 => vec![[-1., 0.], [1., 0.]],
-                Shape::Line3 => vec![[-1., 0.], [1., 0.], [0., 0.]],
-                _ => corners(shape),
-            };
-            for side in shape.sides().iter().filter(|s| s.len() == 3) {
+            let mut nodes = corners(shape);
+            let middles = shape.node_count() - shape.corner_count();
+            for side in shape.sides().iter().take(middles) {
                 let (a, b) = (nodes[side[0]], nodes[side[1]]);
                 nodes.push([(a[0] + b[0]) / 2., (a[1] + b[1]) / 2.]);
             }
