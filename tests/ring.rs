@@ -456,7 +456,8 @@ fn a_body_of_another_shape_is_no_ring() {
 #[test]
 fn a_front_over_the_bore_gives_the_ring_its_load() {
     let mesh =
-        Polar { shape: Shape::Quad8, rays: 32, radii: [0.4, 0.6], layers: 2, ground_layers: 0, width: 0.6 }.mesh();
+        Polar { shape: Shape::Quad8, rays: 32, radii: [0.4, 0.6], layers: 2, ground_layers: 0, width: 0.6, uneven: 0. }
+            .mesh();
     let ring = |name: &str, front: &str| {
         let json = format!(
             r#"{{ "analysis": "static", "materials": {{ "pipe": {{ "young": 2.1e11, "poisson": 0.3, "density": 7800 }} }},
