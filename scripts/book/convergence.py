@@ -64,7 +64,7 @@ def page(book):
         axes.barh(names, [max(abs(shares[name]), 1e-7) for name in names],
                   color=["C3" if abs(shares[name]) > SUSPICIOUS else "C0" for name in names])
         axes.axvline(SUSPICIOUS, color="k", linewidth=0.8)
-        axes.set(xscale="log", xlabel="|energy of contact| / largest stored; red: no result, the run warns")
+        axes.set(xscale="log", xlabel="|contact energy| / largest stored (red: no result)")
         axes.tick_params(axis="y", labelsize=7)
 
     return Page(
