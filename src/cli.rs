@@ -53,6 +53,18 @@ pub enum Command {
     },
     /// Load parameters of an explosion, its pulse and the curve
     Blast(BlastArguments),
+    /// Make many runs from one plan: what shares its matrices marches together, what is done is not done again
+    Sweep {
+        /// {"case": "twin_pipes.json", "set": {"PATH": [VALUES]}, "geo": {"NAME": [NUMBERS]}}; every combination is run
+        #[arg(value_name = "SWEEP.json")]
+        plan: PathBuf,
+        /// Results folder [default: output/NAME]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Print the table only, not what is going on
+        #[arg(long)]
+        quiet: bool,
+    },
     /// Print the JSON Schema of the case file, for editors
     Schema,
 }
@@ -167,6 +179,7 @@ pub fn execute(command: Command) -> Result<String> {
         Command::Check { case } => study::check::command(&case.request()?),
         Command::Modes { case, count, out } => study::modes::command(&Request { out, ..case.request()? }, count),
         Command::Blast(arguments) => study::blast::command(&arguments.request()),
+        Command::Sweep { plan, out, quiet } => study::sweep::command(&study::sweep::SweepRequest { plan, out, quiet }),
         Command::Schema => Ok(study::schema()),
     }
 }

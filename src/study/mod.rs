@@ -16,6 +16,7 @@ mod recorder;
 pub mod run;
 pub mod screen;
 pub mod script;
+pub mod sweep;
 mod unsettled;
 
 /// `coralpipe schema`: the JSON Schema of the case file.

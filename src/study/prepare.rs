@@ -6,6 +6,7 @@ use crate::solve::modes::{NaturalMode, natural_modes, rayleigh};
 use crate::solve::system::{Rayleigh, System};
 use crate::sparse::{NotPositiveDefinite, Symbolic};
 use crate::{Error, Result};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Modes told in every summary; near-equal ones follow the first two of the paper's case.
@@ -14,7 +15,7 @@ const MODES: usize = 4;
 pub struct Prepared {
     pub model: Model,
     pub system: System,
-    pub symbolic: Symbolic,
+    pub symbolic: Arc<Symbolic>,
     pub modes: Vec<NaturalMode>,
     pub rayleigh: Rayleigh,
     /// assembly and ordering
@@ -30,7 +31,7 @@ impl Prepared {
         if system.unknowns.count == 0 {
             return Err(Error::input("nothing can move: supports hold every node of the mesh"));
         }
-        let symbolic = system.symbolic();
+        let symbolic = Arc::new(system.symbolic());
         let setup = start.elapsed();
 
         let start = Instant::now();
@@ -42,6 +43,19 @@ impl Prepared {
         let joints = model.damping.is_some_and(|d| d.interfaces);
         let system = system.with_damping(rayleigh, joints);
         Ok(Prepared { model, system, symbolic, modes, rayleigh, setup, factor: start.elapsed() })
+    }
+
+    /// Likewise for a model that differs in loads and friction only: nothing is assembled, ordered or solved again.
+    pub fn with_loads_of(&self, model: Model) -> Result<Prepared> {
+        Ok(Prepared {
+            system: self.system.with_loads_of(&model)?,
+            model,
+            symbolic: self.symbolic.clone(),
+            modes: self.modes.clone(),
+            rayleigh: self.rayleigh,
+            setup: self.setup,
+            factor: self.factor,
+        })
     }
 
     /// The lowest `count` natural modes.

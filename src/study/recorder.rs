@@ -28,7 +28,8 @@ pub struct Recorder<'a> {
     origin: Vec<f64>,
     histories: Histories,
     rings: RingTable,
-    series: Series,
+    /// none where no frames are asked for
+    series: Option<Series>,
     status: File,
     status_lines: String,
     ledger: Ledger,
@@ -52,7 +53,14 @@ pub enum Ending {
 
 impl<'a> Recorder<'a> {
     /// Opens the files and records the state at t = 0.
-    pub fn start(prepared: &'a Prepared, folder: &'a Folder, state: &State, origin: Vec<f64>) -> Result<Recorder<'a>> {
+    pub fn start(
+        prepared: &'a Prepared,
+        folder: &'a Folder,
+        state: &State,
+        origin: Vec<f64>,
+        frames: bool,
+    ) -> Result<Recorder<'a>> {
+        let series = || Series::start(folder.path(), folder.name(), Grid::new(&prepared.model));
         let path = folder.file(STATUS);
         let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
         let mut recorder = Recorder {
@@ -61,7 +69,7 @@ impl<'a> Recorder<'a> {
                 &folder.file("rings.csv"),
                 rings(&prepared.model, &prepared.system, prepared.rayleigh),
             )?,
-            series: Series::start(folder.path(), folder.name(), Grid::new(&prepared.model))?,
+            series: frames.then(series).transpose()?,
             status,
             status_lines: STATUS_HEADER.into(),
             ledger: Ledger::start(&prepared.system, state),
@@ -107,7 +115,8 @@ impl<'a> Recorder<'a> {
         self.flush()?;
         self.motion = self.motion.after(&self.prepared.model, &self.prepared.system, state);
         self.rings.record(&self.prepared.model, &self.prepared.system, state, &self.origin)?;
-        self.series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin))
+        let Some(series) = &mut self.series else { return Ok(()) };
+        series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin))
     }
 
     fn flush(&mut self) -> Result<()> {
@@ -148,7 +157,7 @@ impl<'a> Recorder<'a> {
     pub fn finish(mut self, ending: Ending, inputs: Inputs, title: &str, timing: Timing) -> Result<Summary> {
         self.flush()?;
         let steps_s = self.started.elapsed().as_secs_f64();
-        let written = self.series.finish()?;
+        let written = self.series.map(Series::finish).transpose()?.unwrap_or_default();
         let model = &self.prepared.model;
         Ok(Summary {
             status: match ending {

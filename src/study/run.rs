@@ -59,6 +59,15 @@ pub fn interrupt() {
     }
 }
 
+/// From now on Ctrl-C ends the run after a whole step.
+pub(super) fn begin_to_write() {
+    MARCHING.store(true, Relaxed);
+}
+
+pub(super) fn interrupted() -> bool {
+    INTERRUPTED.load(Relaxed)
+}
+
 /// A case with its mesh and model: what `run`, `check` and `modes` start from.
 pub struct Loaded {
     pub case: Case,
@@ -69,10 +78,15 @@ pub struct Loaded {
 pub fn load(request: &Request) -> Result<Loaded> {
     let case = Case::read(&request.case, &request.sets)?;
     let meshed = mesh::obtain(&case, &request.geo, request.mesh.as_deref())?;
-    let mut model = Model::new(&case, &meshed.mesh, request.bonded)?;
-    model.warnings.extend(idle(&case, &model));
-    model.warnings.extend(meshed.warnings.iter().cloned());
+    let model = model(&case, &meshed, request.bonded)?;
     Ok(Loaded { case, meshed, model })
+}
+
+pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool) -> Result<Model> {
+    let mut model = Model::new(case, &meshed.mesh, bonded)?;
+    model.warnings.extend(idle(case, &model));
+    model.warnings.extend(meshed.warnings.iter().cloned());
+    Ok(model)
 }
 
 /// `coralpipe run`: solves the case and returns the table of what came out; the files are in the results folder.
@@ -92,7 +106,7 @@ pub fn command(request: &Request) -> Result<String> {
     let factoring = Instant::now();
     let rest = under_gravity(&mut prepared)?;
     let prepared = prepared;
-    let (state, origin, mut march) = ready_to_march(&prepared, rest)?;
+    let (state, origin, mut march) = ready_to_march(&prepared, rest, None)?;
     let timing = Timing {
         mesh_s: meshed.took.as_secs_f64(),
         setup_s: prepared.setup.as_secs_f64(),
@@ -100,13 +114,13 @@ pub fn command(request: &Request) -> Result<String> {
         ..Timing::default()
     };
     let inputs = inputs(&case, &meshed.path, request)?;
-    MARCHING.store(true, Relaxed);
+    begin_to_write();
     let path = request.folder(&case);
     let replaced = replaced(&path, &inputs);
     let folder = Folder::prepare(&path, &case.name())?;
     replaced.iter().for_each(|sentence| screen.say(sentence));
     let solve = || {
-        let mut recorder = Recorder::start(&prepared, &folder, &state, origin)?;
+        let mut recorder = Recorder::start(&prepared, &folder, &state, origin, true)?;
         let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
         let mut summary = recorder.finish(ending, inputs, &case.title, timing)?;
         summary.timing.total_s = started.elapsed().as_secs_f64();
@@ -120,7 +134,13 @@ pub fn command(request: &Request) -> Result<String> {
 }
 
 /// The state at t = 0, the unknowns in equilibrium under gravity (which is `rest`), and the march from there.
-fn ready_to_march(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>, March<'_>)> {
+///
+/// `like` marches another system that differs in loads and friction only: its factor is taken.
+pub(super) fn ready_to_march<'a>(
+    prepared: &'a Prepared,
+    rest: State,
+    like: Option<&March<'a>>,
+) -> Result<(State, Vec<f64>, March<'a>)> {
     let Prepared { model, system, symbolic, .. } = prepared;
     let not_definite = |e| prepared.not_definite(e);
     let (scheme, state, origin) = match model.analysis {
@@ -142,12 +162,15 @@ fn ready_to_march(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>, 
             "the state at t = 0 has numbers too large for a computer: check loads, gravity, densities and the initial motion",
         ));
     }
-    let march = March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?;
+    let march = match like {
+        Some(like) => like.sharing_factor(system),
+        None => March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?,
+    };
     Ok((state, origin, march.with_energy_budget(model.time.energy_budget)))
 }
 
 /// Equilibrium under gravity. Boundaries that let waves out hold the ground in it, and go on to push as they did.
-fn under_gravity(prepared: &mut Prepared) -> Result<State> {
+pub(super) fn under_gravity(prepared: &mut Prepared) -> Result<State> {
     let settle = |prepared: &Prepared, system: &System, symbolic: &Symbolic| {
         let found = start::under_gravity(system, symbolic, prepared.model.newton).map_err(not_held)?;
         found.map_err(|why| unsettled::at_start(prepared, &why))
@@ -178,7 +201,7 @@ fn march_to_end(
     let progress = screen.progress(time.steps);
     let mut state = start;
     for number in 1..=time.steps {
-        if INTERRUPTED.load(Relaxed) {
+        if interrupted() {
             let sentence = format!("interrupted at t = {} s, after step {} of {}", state.time, number - 1, time.steps);
             return Ok((Ending::Interrupted, Some(Error::Interrupted(sentence))));
         }
