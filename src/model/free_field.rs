@@ -51,6 +51,16 @@ pub fn free_fields(case: &Case, model: &Model) -> Result<Vec<FreeField>> {
     Ok(found)
 }
 
+/// What is only nearly so under a moving front.
+pub fn swept(sides: &[FreeField], loads: &[Load]) -> Option<String> {
+    let load = loads.iter().find(|load| load.sweep.is_some()).filter(|_| !sides.is_empty())?;
+    Some(format!(
+        "the load on \"{}\" sweeps over it, but the ground beyond free-field sides is taken to move straight up and down, under \
+         the pressure that reaches the side's top: a front much faster than P waves does nearly so, a slower one does not",
+        load.group
+    ))
+}
+
 /// Share of a line's length by which it may lean.
 const UPRIGHT: f64 = 1e-6;
 
@@ -199,5 +209,6 @@ fn on_column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip, load:
             load.group
         )));
     }
-    Ok(Some(Load { target, ..load.clone() }))
+    let pulse = load.sweep.as_ref().map_or(load.pulse.clone(), |sweep| sweep.pulse(model.mesh.points[top]));
+    Ok(Some(Load { target, pulse, sweep: None, group: load.group.clone() }))
 }

@@ -3,7 +3,7 @@
 use super::absorbing::{Absorber, absorbers};
 use super::boundary::{Border, border};
 use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
-use super::free_field::{FreeField, free_fields};
+use super::free_field::{self, FreeField, free_fields};
 use super::initial::{Initial, initial};
 use super::mesh::Mesh;
 use super::number::short;
@@ -145,7 +145,12 @@ impl Model {
         };
         match case.analysis {
             Analysis::Static => Ok(model.held()),
-            Analysis::Dynamic => Ok(Model { free_fields: free_fields(case, &model)?, ..model }),
+            Analysis::Dynamic => {
+                let free_fields = free_fields(case, &model)?;
+                let mut warnings = model.warnings.clone();
+                warnings.extend(free_field::swept(&free_fields, &model.loads));
+                Ok(Model { free_fields, warnings, ..model })
+            }
         }
     }
 

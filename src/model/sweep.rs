@@ -77,6 +77,11 @@ impl Sweep {
         self.front.arrival(x) - self.zero
     }
 
+    /// The pressure at x from t = 0 of the calculation on.
+    pub fn pulse(&self, x: [f64; 2]) -> Pulse {
+        Pulse::Delayed { law: Box::new(self.front.pulse(x)), start: self.arrival(x), rise: 0. }
+    }
+
     /// When the pressure at x begins [s]: at the front's passage, or later if the pulse starts later.
     fn begins(&self, x: [f64; 2]) -> f64 {
         self.arrival(x) + self.front.start()

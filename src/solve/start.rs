@@ -43,15 +43,15 @@ pub fn under_gravity(
 }
 
 /// The static state of the `held` system in the unknowns of the one that is let go, and the reactions
-/// K u + r(j) - gravity [N] of what only held the former: they go on as forces.
+/// K u + r(j) - gravity [N] of what only held the former: they go on as forces, about which the ground then moves.
 pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f64>) {
     let q = system.unknowns.from_nodes(&held.unknowns.at_nodes(&state.q));
     let mut unbalanced = multiply(&system.stiffness, &q);
     add(&mut unbalanced, -1., &system.gravity);
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
     add(&mut unbalanced[system.unknowns.first_jump..], 1., &joint_forces);
-    // Elsewhere it is what Newton's tolerance left.
-    let mut reactions = vec![0.; q.len()];
+    // Elsewhere only the boundaries' springs, which were not there, are to be balanced; the rest is what Newton left.
+    let mut reactions = system.boundary_springs(&q);
     for i in system.unknowns.freed_from(&held.unknowns) {
         reactions[i] = unbalanced[i];
     }

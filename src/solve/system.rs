@@ -8,7 +8,7 @@ use crate::Result;
 use crate::model::resolve::Model;
 use crate::model::sweep::Sweep;
 use crate::physics::pulse::Pulse;
-use crate::sparse::{Symbolic, Upper};
+use crate::sparse::{Symbolic, Upper, multiply};
 use serde::Serialize;
 use sprs::{CsMat, TriMat};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ pub struct System {
     /// weight of everything [N]; acts at all times
     pub gravity: Vec<f64>,
     /// what held the absorbing boundaries in the static stage [N]; acts at all times, zero until
-    /// [`start::release`](super::start::release)
+    /// [`start::released`](super::start::released)
     pub reactions: Vec<f64>,
     /// the ground beyond free-field sides
     pub columns: Vec<Column>,
@@ -167,6 +167,12 @@ impl System {
             }
         }
         f
+    }
+
+    /// The boundaries' share of K u, alpha D u / 2 [N].
+    pub fn boundary_springs(&self, q: &[f64]) -> Vec<f64> {
+        let forces = self.dashpots.as_ref().map_or(vec![0.; q.len()], |d| multiply(d, q));
+        forces.into_iter().map(|f| self.rayleigh.alpha / 2. * f).collect()
     }
 
     /// (unknown, force [N]) of the ground beyond free-field sides in the states of its columns, but for the inertial part.
