@@ -3,6 +3,8 @@
 // Frame: metres; y = 0 is the ground's surface, y = -height its base, x = 0 the axis of symmetry.
 // Mesh:  the right half is meshed and mirrored, so geometry and mesh are symmetric about x = 0.
 //        The mesh is conforming where pipe meets ground: coralpipe opens the interface curves itself.
+//        core_width and core_height bound a part whose mesh stays as it is while the ground around it grows
+//        (`coralpipe domain`); refine makes all elements smaller alike (`coralpipe converge`).
 //
 // Physical groups (a case file refers to these names and to nothing else):
 //   layer_1 layer_2 layer_3           ground, from the top
@@ -35,6 +37,9 @@ DefineConstant[
   size_far      = {0.40, Min 0.01,  Max 50, Step 0.05, Name "3Mesh/4Element size far from the pipes [m]"}
   ground_nodes  = {4, Choices{3 = "T3 (order 2: T6)", 4 = "Q4 (order 2: Q8)"}, Name "3Mesh/5Ground element, corners [-]"}
   order         = {1, Choices{1 = "linear", 2 = "quadratic"}, Name "3Mesh/6Order of the elements [-]"}
+  refine        = {1, Min 0.25, Max 16, Step 0.5, Name "3Mesh/7All sizes are divided by [-]"}
+  core_width    = {0, Min 0, Max 500, Step 1, Name "3Mesh/8Width of the part whose mesh is kept (0: all) [m]"}
+  core_height   = {0, Min 0, Max 500, Step 1, Name "3Mesh/9Height of the part whose mesh is kept (0: all) [m]"}
 ];
 
 growth = 0.15;                        // growth of the element size per metre away from a pipe [-]
@@ -61,6 +66,12 @@ EndIf
 // Length of an interface element; also the least distance of anything from a pipe, and the thinnest layer:
 // thinner strips of ground mesh into slivers.
 edge = Pi * outer / around;
+If (core_width > 0 && half_row + radius > core_width / 2 - edge)
+  Error("core_width = %g m cuts through the pipes, which reach %g m from the axis of symmetry: widen it, or give 0 for none.", core_width, half_row + radius); Abort;
+EndIf
+If (core_height > 0 && (core_height < layer_2_depth + edge || core_height < crown + outer + edge))
+  Error("core_height = %g m must lie below layer_2_depth = %g m and the pipes' invert at %g m: deepen it, or give 0 for none.", core_height, layer_2_depth, crown + outer); Abort;
+EndIf
 If (size_near <= 0 || size_far < size_near)
   Error("size_near = %g m and size_far = %g m: sizes must be positive, and the far one not the smaller.", size_near, size_far); Abort;
 EndIf
@@ -97,9 +108,21 @@ EndFor
 
 // ---------------------------------------------------------------- ground and pipes
 
-For i In {1:3}
-  strips() += news; Rectangle(news) = {-width / 2, level(i), 0, width / 2, level(i - 1) - level(i)};
-  strips() += news; Rectangle(news) = {0, level(i), 0, width / 2, level(i - 1) - level(i)};
+// Lines at which the ground is cut: layers, the axis of symmetry, and the core where it ends inside.
+down() = level();
+If (core_height > 0 && core_height < height - tiny)
+  down() = {0, -layer_1_depth, -layer_2_depth, -core_height, -height};
+EndIf
+across() = {0, width / 2};
+If (core_width > 0 && core_width < width - tiny)
+  across() = {0, core_width / 2, width / 2};
+EndIf
+For j In {1:#across() - 1}
+  For i In {1:#down() - 1}
+    size_x = across(j) - across(j - 1); size_y = down(i - 1) - down(i);
+    strips() += news; Rectangle(news) = {-across(j), down(i), 0, size_x, size_y};
+    strips() += news; Rectangle(news) = {across(j - 1), down(i), 0, size_x, size_y};
+  EndFor
 EndFor
 
 // A wall is cut into four-sided sectors (these always mesh into quadrilaterals) at its quarter points and
@@ -191,13 +214,13 @@ For p In {1:pipes}
   spokes() -= bore();
   For c In {0:#ring() - 1}
     length() = Mass Curve{ring(c)};
-    Transfinite Curve{ring(c)} = 1 + Ceil(length(0) / edge - 1e-6);
+    Transfinite Curve{ring(c)} = 1 + Ceil(refine * length(0) / edge - 1e-6);
   EndFor
   For c In {0:#bore() - 1}
     length() = Mass Curve{bore(c)};
-    Transfinite Curve{bore(c)} = 1 + Ceil(length(0) / (Pi * inner / around) - 1e-6);
+    Transfinite Curve{bore(c)} = 1 + Ceil(refine * length(0) / (Pi * inner / around) - 1e-6);
   EndFor
-  Transfinite Curve{spokes()} = 1 + through;
+  Transfinite Curve{spokes()} = 1 + Ceil(refine * through - 1e-6);
 EndFor
 Transfinite Surface{walls()};
 Recombine Surface{walls()};
@@ -208,8 +231,8 @@ For p In {1:pipes}
   Field[p].XCenter = (p - 1) * spacing - half_row;
   Field[p].YCenter = axis;
   Field[p].Radius = radius + 2 * size_near;
-  Field[p].VIn = size_near;
-  Field[p].VOut = size_far;
+  Field[p].VIn = size_near / refine;
+  Field[p].VOut = size_far / refine;
   Field[p].Thickness = (size_far - size_near) / growth;
   around_pipes() += p;
 EndFor

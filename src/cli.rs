@@ -65,6 +65,33 @@ pub enum Command {
         #[arg(long)]
         quiet: bool,
     },
+    /// How large the ground must be: grow it, compute again, until nothing asked for changes
+    Domain {
+        #[command(flatten)]
+        case: CaseArguments,
+        #[command(flatten)]
+        options: DomainArguments,
+    },
+    /// What error mesh and time step leave in each peak: both refined, extrapolated after Richardson
+    Converge {
+        #[command(flatten)]
+        case: CaseArguments,
+        /// What is asked for: A.uy, A.v, pipe_left.M [default: displacement and acceleration of all probes]
+        #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+        compare: Vec<String>,
+        /// The script's constant that all element sizes are divided by
+        #[arg(long, value_name = "NAME", default_value = "refine")]
+        refine: String,
+        /// A mesh's fineness over that of the one before
+        #[arg(long, value_name = "FACTOR", default_value_t = 1.5)]
+        ratio: f64,
+        /// Results folder, DIR/converge [default: output/NAME]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Print the results only, not what is going on
+        #[arg(long)]
+        quiet: bool,
+    },
     /// Print the JSON Schema of the case file, for editors
     Schema,
 }
@@ -141,6 +168,55 @@ pub struct CaseArguments {
     mesh: Option<PathBuf>,
 }
 
+#[derive(Debug, Args)]
+pub struct DomainArguments {
+    /// What is compared: probe displacements A, components A.uy, A.vx, A.a, section forces pipe_left.M [default: all probes]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    compare: Vec<String>,
+    /// Largest change that counts as none; the paper's by default
+    #[arg(long, value_name = "SHARE", default_value = "1.74%")]
+    tolerance: String,
+    /// End of the window compared, as "39 ms" [default: the case's end]
+    #[arg(long, value_name = "TIME")]
+    until: Option<String>,
+    /// A size over the one before
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.5)]
+    growth: f64,
+    /// How often each of width, height and both may grow
+    #[arg(long, value_name = "COUNT", default_value_t = 5)]
+    sizes: usize,
+    /// The script's constant for the width
+    #[arg(long, value_name = "NAME", default_value = "width")]
+    width: String,
+    /// The script's constant for the height
+    #[arg(long, value_name = "NAME", default_value = "height")]
+    height: String,
+    /// Find alpha and beta anew from each size's own modes
+    #[arg(long)]
+    own_damping: bool,
+    /// Results folder, DIR/domain [default: output/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print the results only, not what is going on
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl DomainArguments {
+    fn options(self) -> study::domain::Options {
+        study::domain::Options {
+            compare: self.compare,
+            tolerance: self.tolerance,
+            until: self.until,
+            growth: self.growth,
+            sizes: self.sizes,
+            width: self.width,
+            height: self.height,
+            own_damping: self.own_damping,
+        }
+    }
+}
+
 impl CaseArguments {
     fn request(self) -> Result<Request> {
         Ok(Request {
@@ -180,6 +256,14 @@ pub fn execute(command: Command) -> Result<String> {
         Command::Modes { case, count, out } => study::modes::command(&Request { out, ..case.request()? }, count),
         Command::Blast(arguments) => study::blast::command(&arguments.request()),
         Command::Sweep { plan, out, quiet } => study::sweep::command(&study::sweep::SweepRequest { plan, out, quiet }),
+        Command::Domain { case, mut options } => {
+            let (out, quiet) = (options.out.take(), options.quiet);
+            study::domain::command(&Request { out, quiet, ..case.request()? }, &options.options())
+        }
+        Command::Converge { case, compare, refine, ratio, out, quiet } => {
+            let options = study::converge::Options { compare, refine, ratio };
+            study::converge::command(&Request { out, quiet, ..case.request()? }, &options)
+        }
         Command::Schema => Ok(study::schema()),
     }
 }

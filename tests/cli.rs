@@ -582,6 +582,25 @@ fn results_go_to_stdout_and_all_else_to_stderr() {
     }
 }
 
+/// xi = alpha / (4 pi f) + beta pi f: 5 % at 5 and 15 Hz, so alpha = 2.356194 1/s, beta = 7.957747e-4 s, least 4.330 % at 8.660 Hz,
+/// and at 100 Hz 2.356194 / 1256.6 + 0.25 = 25.2 %.
+#[test]
+fn check_shows_the_damping_over_the_loads_spectrum_and_warns_outside_the_fitted_band() {
+    let bench = Bench::new("damping");
+    let fitted = "check block.json --set damping={\"alpha\":2.356194,\"beta\":7.957747e-4} --set time.end=0.1";
+    let Outcome { code, stdout, stderr } = bench.run_line(fitted);
+    assert_eq!(code, Some(0), "{stderr}");
+    for words in ["least 4.330 % at 8.66 Hz", "25.2", "load on top: half of its energy below"] {
+        assert!(stdout.contains(words), "no {words:?} in: {stdout}");
+    }
+    // 2 x 4.330 % at 8.66 (2 -+ sqrt 3) = 2.32 and 32.3 Hz; |P|^2 of a triangle of 20 ms in closed form, integrated apart from
+    // the program: 6.9 % and 26.5 %
+    let warning = "warning: damping: the load on top has 7 % of its energy below 2.32 Hz and 26 %";
+    assert!(stdout.contains(warning), "{stdout}");
+    let undamped = bench.run_line("check block.json --set damping=null").stdout;
+    assert!(!undamped.contains("xi ="), "{undamped}");
+}
+
 /// `coralpipe schema | head -1`, `coralpipe run 2>&1 | head -1`: the other end is closed before a word is said.
 #[test]
 fn a_pipe_that_nobody_reads_stops_nothing() {

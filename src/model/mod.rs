@@ -1,6 +1,7 @@
 //! What is to be solved: the mesh, the case file, and the two joined by the names of the groups.
 
 pub mod absorbing;
+pub mod arrival;
 pub mod boundary;
 pub mod case;
 pub mod free_field;

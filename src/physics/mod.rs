@@ -1,5 +1,6 @@
 //! Physics that knows no mesh: element, material, joint law, histories in time.
 
+pub mod damping;
 pub mod element;
 pub mod explosion;
 pub mod friedlander;

@@ -1,5 +1,6 @@
 //! What people look at: frames for ParaView, histories, stresses, the summary.
 
+pub mod columns;
 pub mod file;
 pub mod folder;
 pub mod frame;
@@ -7,9 +8,11 @@ pub mod histories;
 pub mod hoop;
 pub mod motion;
 pub mod nodal;
+pub mod plot;
 pub mod ring;
 pub mod ring_table;
 pub mod series;
 pub mod sites;
+pub mod spectrum;
 pub mod stress;
 pub mod summary;

@@ -1,7 +1,9 @@
 //! `coralpipe check`: everything that can be wrong with a case or a mesh, found without solving.
 
+use super::damping;
 use super::loads;
 use super::mesh_report::{self, counts, groups, shapes};
+use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use crate::model::case::{Analysis, Boundary, Case};
 use crate::model::hold::refuse_loose;
@@ -11,7 +13,7 @@ use crate::model::quality;
 use crate::model::resolve::Model;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
-use crate::solve::unknowns::Unknowns;
+use crate::solve::system::Rayleigh;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
@@ -33,14 +35,16 @@ pub fn command(request: &Request) -> Result<String> {
     }
     let Loaded { case, meshed, model } = load(request)?;
     refuse_loose(&model)?;
-    Unknowns::new(&model.mesh, &model.fixed, &model.pairs)?;
+    let Prepared { model, rayleigh, .. } = Prepared::new(model)?;
+    let rayleigh = if model.analysis == Analysis::Static { Rayleigh::default() } else { rayleigh };
     let parts = [
         format!("{}\n{}", meshed.told, counts(&meshed.mesh)),
         groups(&meshed.mesh, |group| taken_for(group, &case, &model)),
         shapes(&meshed.mesh),
         waves(&model),
         time(&model) + &loads::report(&model),
-        warnings(&meshed.mesh, &model),
+        damping::told(&model, rayleigh),
+        warnings(&meshed.mesh, &model, rayleigh),
     ];
     Ok(report(&parts))
 }
@@ -153,9 +157,10 @@ fn time(model: &Model) -> String {
     )
 }
 
-fn warnings(mesh: &Mesh, model: &Model) -> String {
+fn warnings(mesh: &Mesh, model: &Model, rayleigh: Rayleigh) -> String {
     let mut warnings = model.warnings.clone();
     warnings.extend(mesh_report::warnings(mesh));
+    warnings.extend(damping::warnings(model, rayleigh));
     for load in &model.loads {
         let rise = load.pulse.rise_time();
         if rise > 0. && rise < 5. * model.time.step {

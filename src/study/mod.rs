@@ -3,7 +3,10 @@
 pub mod blast;
 pub mod check;
 pub mod constants;
+pub mod converge;
 mod curve;
+mod damping;
+pub mod domain;
 pub mod gmsh;
 mod inputs;
 mod loads;
@@ -12,10 +15,13 @@ mod mesh_report;
 pub mod meshing;
 pub mod modes;
 pub mod prepare;
+mod quantity;
 mod recorder;
+mod richardson;
 pub mod run;
 pub mod screen;
 pub mod script;
+mod series;
 pub mod sweep;
 mod unsettled;
 

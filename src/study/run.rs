@@ -64,6 +64,7 @@ pub(super) fn begin_to_write() {
     MARCHING.store(true, Relaxed);
 }
 
+/// Whether Ctrl-C was pressed: what stopped then was stopped by it.
 pub(super) fn interrupted() -> bool {
     INTERRUPTED.load(Relaxed)
 }
