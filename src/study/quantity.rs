@@ -22,7 +22,7 @@ const FORCES: [&str; 5] = ["N", "Q", "M", "hoop_inner", "hoop_outer"];
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (Quantity::Motion { probe: name, what } | Quantity::Ring { body: name, what }) = self;
-        write!(f, "{name}.{what}")
+        f.pad(&format!("{name}.{what}"))
     }
 }
 
