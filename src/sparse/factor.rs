@@ -9,7 +9,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Mat, Par};
 use sprs::CsMat;
 
-use super::sweeps::Panels;
+use super::panels::Panels;
 
 /// Where the factor of a pattern has its entries. Unknowns are eliminated in the order in which they are numbered.
 pub struct Symbolic {

@@ -5,6 +5,7 @@
 pub mod factor;
 pub mod lanczos;
 pub mod ordering;
+mod panels;
 pub mod sweeps;
 pub mod upper;
 pub mod vector;
