@@ -64,3 +64,4 @@ clean:
 	rm -rf output
 	@grep -ls '"mesh_sha256"' meshes/*.json | grep -vx 'meshes/twin_pipes.json' | while read -r record; do \
 	    rm -f "$$record" "$${record%.json}.msh"; done
+	@grep -ls '^coralpipe orders' meshes/*.orders | xargs -r rm -f

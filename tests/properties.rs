@@ -8,6 +8,7 @@ use coralpipe::physics::element::{self, Integral};
 use coralpipe::physics::joint::{Friction, JointLaw, Status};
 use coralpipe::physics::material::Material;
 use coralpipe::solve::unknowns::Unknowns;
+use coralpipe::sparse::Orders;
 use nalgebra::{DVector, Vector2};
 use proptest::prelude::*;
 use support::Drawing;
@@ -100,7 +101,7 @@ proptest! {
         values in prop::collection::vec(-1_f64..1., 60),
     ) {
         let (mesh, pairs) = two_halves();
-        let unknowns = Unknowns::new(&mesh, &held, &pairs).unwrap();
+        let unknowns = Unknowns::new(&mesh, &held, &pairs, &Orders::default()).unwrap();
         let free = held.iter().flatten().filter(|held| !**held).count();
         prop_assert_eq!(unknowns.count, free);
         let u = unknowns.at_nodes(&values[..free]);

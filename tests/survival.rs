@@ -361,3 +361,32 @@ fn on_a_full_disk_the_run_stops_and_finished_results_survive() {
     assert!(Command::new("umount").arg(&target).status().unwrap().success());
     checked.unwrap_or_else(|e| std::panic::resume_unwind(e));
 }
+
+/// A later run of a mesh takes the elimination order that an earlier one has left beside it; where there is none, or
+/// something else, it finds the order again.
+#[test]
+fn what_stands_in_the_place_of_an_elimination_order_changes_no_digit() {
+    let bench = Bench::new("orders");
+    let orders = bench.path("block.orders");
+    let run = || {
+        let outcome = bench.run_line("run block.json --out out");
+        assert_eq!((outcome.code, outcome.stderr.contains("orders")), (Some(0), false), "{}", outcome.stderr);
+        fs::read(bench.path("out/histories.csv")).unwrap()
+    };
+    let first = run();
+    let kept = fs::read(&orders).unwrap();
+    assert!(run() == first && fs::read(&orders).unwrap() == kept);
+
+    // Bonded it is another graph, whose order takes its place beside the first one.
+    assert_eq!(bench.run_line("run block.json --bonded --out bonded").code, Some(0));
+    let both = fs::read(&orders).unwrap();
+    assert!(both.len() > kept.len() && run() == first && fs::read(&orders).unwrap() == both);
+
+    fs::write(&orders, &both[..both.len() / 2]).unwrap();
+    assert!(run() == first && fs::read(&orders).unwrap() == kept, "cut off: found and written again");
+    fs::write(&orders, "something of the user's own").unwrap();
+    assert!(run() == first && fs::read(&orders).unwrap() == b"something of the user's own");
+    fs::remove_file(&orders).unwrap();
+    fs::create_dir(bench.path("block.part")).unwrap();
+    assert!(run() == first && !orders.exists(), "it could not be written");
+}

@@ -268,7 +268,8 @@ fn outer_lengths(shape: &RingShape, mesh: &Mesh) -> Vec<OuterFace> {
 
 fn element(shape: &RingShape, model: &Model, lengths: &[OuterFace], cell: usize, sector: usize) -> Element {
     let material = material_of(model, cell);
-    let (stiffness, mass) = assembly::of_face(model, cell, &material);
+    let stiffness = assembly::stiffness_of_face(model, cell, &material);
+    let mass = assembly::mass_of_face(model, cell, &material);
     let face = &model.mesh.cells[cell];
     let (inner, outer) = shape.faces();
     let (mut ends, mut outside) = (Vec::new(), Vec::new());

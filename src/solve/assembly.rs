@@ -4,68 +4,81 @@ use super::unknowns::Unknowns;
 use crate::model::absorbing::Absorber;
 use crate::model::boundary::Border;
 use crate::model::case::{Mass, Quad4};
+use crate::model::mesh::Cell;
 use crate::model::resolve::{Load, Model, Target};
 use crate::physics::element::{self, Integral};
 use crate::physics::material::Material;
 use crate::physics::shape::Shape;
+use crate::sparse::Graph;
 use nalgebra::DMatrix;
-use sprs::{CsMat, TriMat};
+use sprs::CsMat;
 
 /// K and M of all faces on one pattern; both triangles stored.
 pub fn stiffness_and_mass(model: &Model, unknowns: &Unknowns) -> (CsMat<f64>, CsMat<f64>) {
-    let shape = (unknowns.count, unknowns.count);
-    let (mut k, mut m) = (TriMat::new(shape), TriMat::new(shape));
-    for (cell, material) in model.faces() {
-        let (stiffness, mass) = of_face(model, cell, material);
-        scatter(&mut k, &mut m, unknowns, &model.mesh.cells[cell].nodes, &stiffness, &mass);
-    }
-    // Where a support holds one side of a pair, its two jumps stand in the rows of different faces: the joint couples them.
-    for joint in &model.joints {
-        let jumps: Vec<usize> = joint.pairs.iter().flat_map(|&p| unknowns.jumps[p]).flatten().collect();
-        for (&i, &j) in jumps.iter().flat_map(|i| jumps.iter().map(move |j| (i, j))) {
-            k.add_triplet(i, j, 0.);
-            m.add_triplet(i, j, 0.);
-        }
-    }
-    (k.to_csr(), m.to_csr())
+    let zeros = pattern(model, unknowns);
+    std::thread::scope(|scope| {
+        let pattern = zeros.clone();
+        let mass = scope.spawn(|| sum_of_faces(model, unknowns, pattern, mass_of_face));
+        let stiffness = sum_of_faces(model, unknowns, zeros, stiffness_of_face);
+        (stiffness, mass.join().expect("no panic: the stiffness takes the same way"))
+    })
 }
 
-/// k [N/m] and m [kg] of one face.
-pub fn of_face(model: &Model, cell: usize, material: &Material) -> (DMatrix<f64>, DMatrix<f64>) {
-    let shape = model.mesh.cells[cell].shape;
-    let at = corners(model, &model.mesh.cells[cell].nodes);
-    let for_stiffness = element::points(shape, &at, Integral::Stiffness);
-    let for_mass = element::points(shape, &at, Integral::Mass);
-    let mass = match model.mass {
-        Mass::Consistent => element::mass(&for_mass, material.density),
-        Mass::Lumped => element::lumped_mass(&for_mass, material.density),
+/// Zeros where unknowns are coupled: within a face and, where a support holds one side of a pair so that its two jumps
+/// stand in the rows of different faces, within a joint.
+fn pattern(model: &Model, unknowns: &Unknowns) -> CsMat<f64> {
+    let of_nodes = |nodes: &[usize]| {
+        let rows = nodes.iter().flat_map(|&n| [unknowns.row(n, 0), unknowns.row(n, 1)]);
+        rows.flatten().map(|&(i, _)| i).collect()
     };
-    let stiffness = match (shape, model.quad4) {
-        (Shape::Quad4, Quad4::BBar) => element::b_bar_stiffness(&for_stiffness, material),
-        _ => element::stiffness(&for_stiffness, &material.plane_strain()),
-    };
-    (stiffness, mass)
+    let faces = model.faces().map(|(cell, _)| of_nodes(&model.mesh.cells[cell].nodes));
+    let joints =
+        model.joints.iter().map(|joint| joint.pairs.iter().flat_map(|&p| unknowns.jumps[p]).flatten().collect());
+    let cliques: Vec<Vec<usize>> = faces.chain(joints).collect();
+    Graph::from_cliques(unknowns.count, cliques.iter().map(Vec::as_slice)).zeros()
 }
 
-/// Adds T' k T and T' m T of one element, entry by entry alike, zeros too: that keeps the patterns the same.
-fn scatter(
-    k: &mut TriMat<f64>,
-    m: &mut TriMat<f64>,
+/// sum T' a T of the matrices a of all faces, in their order, on the pattern of `zeros`.
+fn sum_of_faces(
+    model: &Model,
     unknowns: &Unknowns,
-    nodes: &[usize],
-    stiffness: &DMatrix<f64>,
-    mass: &DMatrix<f64>,
-) {
-    let row = |local: usize| unknowns.row(nodes[local / 2], local % 2);
-    for a in 0..stiffness.nrows() {
-        for b in 0..stiffness.ncols() {
-            for &(i, sign_i) in row(a) {
-                for &(j, sign_j) in row(b) {
-                    k.add_triplet(i, j, sign_i * sign_j * stiffness[(a, b)]);
-                    m.add_triplet(i, j, sign_i * sign_j * mass[(a, b)]);
+    zeros: CsMat<f64>,
+    of_face: fn(&Model, usize, &Material) -> DMatrix<f64>,
+) -> CsMat<f64> {
+    let mut sum = zeros;
+    for (cell, material) in model.faces() {
+        let a = of_face(model, cell, material);
+        let nodes = &model.mesh.cells[cell].nodes;
+        let row = |local: usize| unknowns.row(nodes[local / 2], local % 2);
+        for (k, l) in (0..a.nrows()).flat_map(|k| (0..a.ncols()).map(move |l| (k, l))) {
+            for &(i, sign_i) in row(k) {
+                for &(j, sign_j) in row(l) {
+                    let entry = sum.get_mut(i, j).expect("the pattern couples the unknowns of a face");
+                    *entry += sign_i * sign_j * a[(k, l)];
                 }
             }
         }
+    }
+    sum
+}
+
+/// k of one face [N/m].
+pub fn stiffness_of_face(model: &Model, cell: usize, material: &Material) -> DMatrix<f64> {
+    let Cell { shape, nodes } = &model.mesh.cells[cell];
+    let points = element::points(*shape, &corners(model, nodes), Integral::Stiffness);
+    match (shape, model.quad4) {
+        (Shape::Quad4, Quad4::BBar) => element::b_bar_stiffness(&points, material),
+        _ => element::stiffness(&points, &material.plane_strain()),
+    }
+}
+
+/// m of one face [kg].
+pub fn mass_of_face(model: &Model, cell: usize, material: &Material) -> DMatrix<f64> {
+    let Cell { shape, nodes } = &model.mesh.cells[cell];
+    let points = element::points(*shape, &corners(model, nodes), Integral::Mass);
+    match model.mass {
+        Mass::Consistent => element::mass(&points, material.density),
+        Mass::Lumped => element::lumped_mass(&points, material.density),
     }
 }
 

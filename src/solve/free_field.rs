@@ -16,7 +16,7 @@ use crate::model::free_field::FreeField;
 use crate::model::resolve::Model;
 use crate::physics::element;
 use crate::physics::shape::Shape;
-use crate::sparse::{Symbolic, multiply};
+use crate::sparse::{Orders, Symbolic, multiply};
 use sprs::{CsMat, TriMat};
 
 /// The column beyond one side, and its forces on the side.
@@ -34,8 +34,8 @@ pub struct Column {
 }
 
 impl Column {
-    pub fn new(model: &Model, unknowns: &Unknowns, side: &FreeField) -> Result<Column> {
-        let system = System::new(&side.column)?;
+    pub fn new(model: &Model, unknowns: &Unknowns, side: &FreeField, orders: &Orders) -> Result<Column> {
+        let system = System::ordered(&side.column, orders)?;
         let on_side = side.twin.keys().flat_map(|&node| [unknowns.row(node, 0), unknowns.row(node, 1)]);
         let mut own: Vec<usize> = on_side.flatten().map(|&(i, _)| i).collect();
         own.sort_unstable();

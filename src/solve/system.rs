@@ -8,7 +8,7 @@ use crate::Result;
 use crate::model::resolve::Model;
 use crate::model::sweep::Sweep;
 use crate::physics::pulse::Pulse;
-use crate::sparse::{Symbolic, Upper, multiply};
+use crate::sparse::{Orders, Symbolic, Upper, multiply};
 use serde::Serialize;
 use sprs::{CsMat, TriMat};
 use std::sync::Arc;
@@ -85,7 +85,12 @@ pub struct State {
 
 impl System {
     pub fn new(model: &Model) -> Result<System> {
-        let unknowns = Unknowns::new(&model.mesh, &model.fixed, &model.pairs)?;
+        System::ordered(model, &Orders::default())
+    }
+
+    /// With the elimination orders that are known; those that are not are added.
+    pub fn ordered(model: &Model, orders: &Orders) -> Result<System> {
+        let unknowns = Unknowns::new(&model.mesh, &model.fixed, &model.pairs, orders)?;
         let (stiffness, mass) = assembly::stiffness_and_mass(model, &unknowns);
         let damping = assembly::dashpots(model, &unknowns, scaled(&mass, 0.));
         Ok(System {
@@ -96,7 +101,7 @@ impl System {
             interface: interface(model, &unknowns),
             gravity: assembly::gravity(model, &unknowns),
             reactions: vec![0.; unknowns.count],
-            columns: columns(model, &unknowns)?,
+            columns: columns(model, &unknowns, orders)?,
             loads: loads(model, &unknowns),
             sweeps: fronts(model),
             unknowns: unknowns.into(),
@@ -108,7 +113,7 @@ impl System {
 
     /// The system of a model that differs from this one's in its loads and the friction of its joints only.
     pub fn with_loads_of(&self, model: &Model) -> Result<System> {
-        let columns = columns(model, &self.unknowns)?;
+        let columns = columns(model, &self.unknowns, &Orders::default())?;
         Ok(System {
             unknowns: self.unknowns.clone(),
             stiffness: self.stiffness.clone(),
@@ -216,8 +221,8 @@ fn fronts(model: &Model) -> Vec<Sweep> {
     model.loads.iter().filter_map(|load| load.sweep.clone()).collect()
 }
 
-fn columns(model: &Model, unknowns: &Unknowns) -> Result<Vec<Column>> {
-    model.free_fields.iter().map(|side| Column::new(model, unknowns, side)).collect()
+fn columns(model: &Model, unknowns: &Unknowns, orders: &Orders) -> Result<Vec<Column>> {
+    model.free_fields.iter().map(|side| Column::new(model, unknowns, side, orders)).collect()
 }
 
 impl State {

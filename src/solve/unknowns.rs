@@ -5,7 +5,7 @@
 
 use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
-use crate::sparse::{Graph, elimination_order};
+use crate::sparse::{Graph, Orders};
 use crate::{Error, Result};
 use std::collections::BTreeSet;
 
@@ -28,10 +28,10 @@ pub struct Unknowns {
 type Expression = Vec<(usize, f64)>;
 
 impl Unknowns {
-    /// `fixed` per node and axis.
+    /// `fixed` per node and axis; `orders`: those that are known.
     ///
     /// Errors: pairs that form a ring (three bodies with three interfaces in one point), which jumps cannot describe.
-    pub fn new(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair]) -> Result<Unknowns> {
+    pub fn new(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair], orders: &Orders) -> Result<Unknowns> {
         let nodes = mesh.points.len();
         let expressions = [express(mesh, fixed, pairs, 0)?, express(mesh, fixed, pairs, 1)?];
         let mut free = vec![[false; 2]; nodes + pairs.len()];
@@ -40,7 +40,7 @@ impl Unknowns {
                 free[block][axis] = true;
             }
         }
-        let order = order_blocks(mesh, &expressions, &free)?;
+        let order = order_blocks(mesh, &expressions, &free, orders)?;
         let mut number = vec![[None; 2]; free.len()];
         let mut owners = Vec::new();
         for &block in &order {
@@ -160,7 +160,12 @@ fn no_jump_there(mesh: &Mesh, node: usize) -> Error {
 }
 
 /// Blocks that carry unknowns, in elimination order: nodes by nested dissection, then all pairs.
-fn order_blocks(mesh: &Mesh, expressions: &[Vec<Expression>; 2], free: &[[bool; 2]]) -> Result<Vec<usize>> {
+fn order_blocks(
+    mesh: &Mesh,
+    expressions: &[Vec<Expression>; 2],
+    free: &[[bool; 2]],
+    orders: &Orders,
+) -> Result<Vec<usize>> {
     let kept: Vec<usize> = (0..free.len()).filter(|&b| free[b] != [false; 2]).collect();
     let mut vertex = vec![usize::MAX; free.len()];
     for (v, &block) in kept.iter().enumerate() {
@@ -179,5 +184,5 @@ fn order_blocks(mesh: &Mesh, expressions: &[Vec<Expression>; 2], free: &[[bool; 
     let nodes = mesh.points.len();
     let last: Vec<usize> = (0..kept.len()).filter(|&v| kept[v] >= nodes).collect();
     let graph = Graph::from_cliques(kept.len(), cliques.iter().map(Vec::as_slice));
-    Ok(elimination_order(&graph, &last)?.into_iter().map(|v| kept[v]).collect())
+    Ok(orders.of(&graph, &last)?.into_iter().map(|v| kept[v]).collect())
 }

@@ -5,6 +5,7 @@
 pub mod factor;
 pub mod lanczos;
 pub mod ordering;
+pub mod orders;
 mod panels;
 pub mod sweeps;
 pub mod upper;
@@ -13,6 +14,7 @@ pub mod vector;
 pub use factor::{Factor, NotPositiveDefinite, Symbolic, UnreliablePivot};
 pub use lanczos::{Mode, smallest_modes};
 pub use ordering::{Graph, elimination_order};
+pub use orders::Orders;
 pub use upper::Upper;
 
 use sprs::CsMat;

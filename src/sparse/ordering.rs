@@ -3,6 +3,7 @@
 use std::sync::Mutex;
 
 use metis_sys::{METIS_NodeND, METIS_SetDefaultOptions, idx_t, moptions_et_METIS_OPTION_SEED, rstatus_et_METIS_OK};
+use sprs::CsMat;
 
 use crate::{Error, Result};
 
@@ -59,6 +60,19 @@ impl Graph {
 
     pub fn neighbours_of(&self, v: usize) -> &[usize] {
         &self.neighbours[self.start[v]..self.start[v + 1]]
+    }
+
+    /// The matrix that is zero on every vertex and edge.
+    pub fn zeros(&self) -> CsMat<f64> {
+        let mut columns = Vec::with_capacity(self.neighbours.len() + self.len());
+        for v in 0..self.len() {
+            let (left, right) = self.neighbours_of(v).split_at(self.neighbours_of(v).partition_point(|&w| w < v));
+            columns.extend_from_slice(left);
+            columns.push(v);
+            columns.extend_from_slice(right);
+        }
+        let start = self.start.iter().enumerate().map(|(v, edges)| edges + v).collect();
+        CsMat::new((self.len(), self.len()), start, columns, vec![0.; self.neighbours.len() + self.len()])
     }
 
     /// The graph of `kept` alone, its vertices numbered as they stand there.

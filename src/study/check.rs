@@ -35,7 +35,7 @@ pub fn command(request: &Request) -> Result<String> {
     }
     let Loaded { case, meshed, model } = load(request)?;
     refuse_loose(&model)?;
-    let Prepared { model, rayleigh, .. } = Prepared::new(model)?;
+    let Prepared { model, rayleigh, .. } = Prepared::beside(&meshed.path, model)?;
     let rayleigh = if model.analysis == Analysis::Static { Rayleigh::default() } else { rayleigh };
     let parts = [
         format!("{}\n{}", meshed.told, counts(&meshed.mesh)),

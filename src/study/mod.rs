@@ -14,6 +14,7 @@ pub mod mesh;
 mod mesh_report;
 pub mod meshing;
 pub mod modes;
+mod orders;
 pub mod prepare;
 mod quantity;
 mod recorder;

@@ -21,7 +21,7 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     let Loaded { case, meshed, model } = load(request)?;
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
-    let prepared = Prepared::new(model)?;
+    let prepared = Prepared::beside(&meshed.path, model)?;
     let count = count.min(prepared.system.unknowns.count);
     if count > MOST_MODES {
         return Err(Error::input(format!(

@@ -1,11 +1,13 @@
 //! From a model to a system that is ready to march: matrices, natural modes, damping.
 
+use super::orders;
 use crate::model::case::{Analysis, Rayleigh as Damping};
 use crate::model::resolve::Model;
 use crate::solve::modes::{NaturalMode, natural_modes, rayleigh};
 use crate::solve::system::{Rayleigh, System};
-use crate::sparse::{NotPositiveDefinite, Symbolic};
+use crate::sparse::{NotPositiveDefinite, Orders, Symbolic};
 use crate::{Error, Result};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -18,6 +20,7 @@ pub struct Prepared {
     pub symbolic: Arc<Symbolic>,
     pub modes: Vec<NaturalMode>,
     pub rayleigh: Rayleigh,
+    pub orders: Arc<Orders>,
     /// assembly and ordering
     pub setup: Duration,
     /// factor and modes
@@ -25,9 +28,20 @@ pub struct Prepared {
 }
 
 impl Prepared {
+    /// With the elimination orders that are kept beside the mesh; those that are found are left there.
+    pub fn beside(mesh: &Path, model: Model) -> Result<Prepared> {
+        let prepared = Prepared::ordered(model, orders::beside(mesh))?;
+        orders::keep(mesh, &prepared.orders);
+        Ok(prepared)
+    }
+
     pub fn new(model: Model) -> Result<Prepared> {
+        Prepared::ordered(model, Orders::default())
+    }
+
+    fn ordered(model: Model, orders: Orders) -> Result<Prepared> {
         let start = Instant::now();
-        let system = System::new(&model)?;
+        let system = System::ordered(&model, &orders)?;
         if system.unknowns.count == 0 {
             return Err(Error::input("nothing can move: supports hold every node of the mesh"));
         }
@@ -38,11 +52,11 @@ impl Prepared {
         // Statics has neither inertia nor damping, so no modes to take them from.
         let moves = model.analysis == Analysis::Dynamic;
         let damping = model.damping.filter(|_| moves).map(|d| d.rayleigh);
-        let modes = if moves { modes_of(&model, &system, &symbolic, needed_modes(damping))? } else { vec![] };
+        let modes = if moves { modes_of(&model, &system, &symbolic, &orders, needed_modes(damping))? } else { vec![] };
         let rayleigh = coefficients(damping, &modes)?;
         let joints = model.damping.is_some_and(|d| d.interfaces);
         let system = system.with_damping(rayleigh, joints);
-        Ok(Prepared { model, system, symbolic, modes, rayleigh, setup, factor: start.elapsed() })
+        Ok(Prepared { model, system, symbolic, modes, rayleigh, orders: orders.into(), setup, factor: start.elapsed() })
     }
 
     /// Likewise for a model that differs in loads and friction only: nothing is assembled, ordered or solved again.
@@ -53,6 +67,7 @@ impl Prepared {
             symbolic: self.symbolic.clone(),
             modes: self.modes.clone(),
             rayleigh: self.rayleigh,
+            orders: self.orders.clone(),
             setup: self.setup,
             factor: self.factor,
         })
@@ -60,7 +75,7 @@ impl Prepared {
 
     /// The lowest `count` natural modes.
     pub fn natural_modes(&self, count: usize) -> Result<Vec<NaturalMode>> {
-        modes_of(&self.model, &self.system, &self.symbolic, count)
+        modes_of(&self.model, &self.system, &self.symbolic, &self.orders, count)
     }
 
     /// Where a matrix stopped being positive definite, in the user's words.
@@ -77,11 +92,17 @@ impl Prepared {
 }
 
 /// What lets waves out has no modes of its own: they are those of the model as its boundaries hold it in a static stage.
-fn modes_of(model: &Model, system: &System, symbolic: &Symbolic, count: usize) -> Result<Vec<NaturalMode>> {
+fn modes_of(
+    model: &Model,
+    system: &System,
+    symbolic: &Symbolic,
+    orders: &Orders,
+    count: usize,
+) -> Result<Vec<NaturalMode>> {
     if model.absorbers.is_empty() {
         return natural_modes(system, symbolic, count);
     }
-    let held = System::new(&model.held())?;
+    let held = System::ordered(&model.held(), orders)?;
     if held.unknowns.count == 0 {
         return Ok(vec![]);
     }

@@ -101,7 +101,7 @@ pub fn command(request: &Request) -> Result<String> {
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
     let told = model.warnings.len();
-    let mut prepared = Prepared::new(model)?;
+    let mut prepared = Prepared::beside(&meshed.path, model)?;
     screen.say(&format!("{} unknowns, {} joints", prepared.system.unknowns.count, prepared.model.joints.len()));
 
     let factoring = Instant::now();
@@ -179,7 +179,7 @@ pub(super) fn under_gravity(prepared: &mut Prepared) -> Result<State> {
     if prepared.model.gravity == 0. || prepared.model.absorbers.is_empty() {
         return settle(prepared, &prepared.system, &prepared.symbolic);
     }
-    let held = System::new(&prepared.model.held())?;
+    let held = System::ordered(&prepared.model.held(), &prepared.orders)?;
     let rest = settle(prepared, &held, &held.symbolic())?;
     let (state, reactions) = start::released(&prepared.system, &held, &rest);
     prepared.system.reactions = reactions;

@@ -13,6 +13,7 @@ use crate::study::run::{interrupted, ready_to_march, under_gravity};
 use crate::study::unsettled;
 use crate::{Error, Result};
 use std::num::NonZero;
+use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -34,7 +35,7 @@ pub fn solve(group: Vec<(Job, Model)>, frames: bool) -> Result<Vec<(Job, Option<
     let mut ended = Vec::new();
     for (job, model) in group {
         let prepared = match ready.first() {
-            None => Prepared::new(model),
+            None => Prepared::beside(Path::new(&job.inputs.mesh), model),
             Some(first) => first.prepared.with_loads_of(model),
         };
         match prepared.and_then(|mut prepared| Ok((under_gravity(&mut prepared)?, prepared))) {
