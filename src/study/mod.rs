@@ -8,6 +8,7 @@ mod curve;
 mod damping;
 pub mod domain;
 pub mod gmsh;
+mod history;
 mod inputs;
 mod loads;
 pub mod mesh;

@@ -1,8 +1,8 @@
 //! What a study of several runs compares: a probe's motion, or the section forces of a pipe wall.
 
+use super::history::History;
 use super::run::Loaded;
 use crate::results::columns::Columns;
-use crate::results::histories::Peak;
 use crate::{Error, Result};
 use std::fmt;
 use std::path::Path;
@@ -12,7 +12,7 @@ use std::path::Path;
 pub enum Quantity {
     /// columns of `histories.csv`: one component, or the two of a vector
     Motion { probe: String, what: &'static str },
-    /// a column of `rings.csv`: the largest magnitude round the wall
+    /// a column of `rings.csv`, all round the wall
     Ring { body: String, what: &'static str },
 }
 
@@ -24,22 +24,6 @@ impl fmt::Display for Quantity {
         let (Quantity::Motion { probe: name, what } | Quantity::Ring { body: name, what }) = self;
         f.pad(&format!("{name}.{what}"))
     }
-}
-
-/// A quantity over time; a component alone has 0 beside it.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct History {
-    pub times: Vec<f64>,
-    pub values: Vec<[f64; 2]>,
-}
-
-/// How far a quantity in one run is from that in another, over the other's largest magnitude [-].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Change {
-    /// max |b(t) - a(t)| / max |b(t)|
-    pub history: f64,
-    /// |max |b| - max |a|| / max |b|
-    pub peak: f64,
 }
 
 impl Quantity {
@@ -117,10 +101,11 @@ impl Quantity {
                 let axes: &[&str] = if what.len() == 1 { &["x", "y"] } else { &[""] };
                 let column = |axis: &&str| table.numbers(&format!("{probe}.{what}{axis}"));
                 let columns: Vec<Vec<f64>> = axes.iter().map(column).collect::<Result<_>>()?;
-                let at = |row: usize| [columns[0][row], columns.get(1).map_or(0., |c| c[row])];
-                Ok(History { times: table.numbers("t")?, values: (0..columns[0].len()).map(at).collect() })
+                let at = |row: usize| columns.iter().map(|c| c[row]).collect();
+                let values = (0..columns[0].len()).map(at).collect();
+                Ok(History { times: table.numbers("t")?, values, angles: vec![] })
             }
-            Quantity::Ring { body, what } => largest_round(body, what, &Columns::read(&folder.join("rings.csv"))?),
+            Quantity::Ring { body, what } => round(body, what, &Columns::read(&folder.join("rings.csv"))?),
         }
     }
 }
@@ -130,18 +115,20 @@ pub fn listed(names: &[&str]) -> String {
     if names.is_empty() { "none".into() } else { names.join(", ") }
 }
 
-/// At each frame the value of largest magnitude round the wall.
-fn largest_round(body: &str, what: &str, table: &Columns) -> Result<History> {
-    let (times, bodies, values) = (table.numbers("t")?, table.texts("body")?, table.numbers(what)?);
+/// At each frame the values at the body's rays.
+fn round(body: &str, what: &str, table: &Columns) -> Result<History> {
+    let (times, bodies) = (table.numbers("t")?, table.texts("body")?);
+    let (angles, values) = (table.numbers("angle_deg")?, table.numbers(what)?);
     let mut history = History::default();
     for row in (0..times.len()).filter(|&row| bodies[row] == body) {
         if history.times.last() != Some(&times[row]) {
             history.times.push(times[row]);
-            history.values.push([0.; 2]);
+            history.values.push(vec![]);
         }
-        if let Some(last) = history.values.last_mut().filter(|last| values[row].abs() > last[0].abs()) {
-            last[0] = values[row];
+        if history.times.len() == 1 {
+            history.angles.push(angles[row]);
         }
+        history.values.last_mut().expect("each time has its row").push(values[row]);
     }
     match history.times.is_empty() {
         true => Err(Error::input(format!(
@@ -151,52 +138,9 @@ fn largest_round(body: &str, what: &str, table: &Columns) -> Result<History> {
     }
 }
 
-impl History {
-    /// Until `end` [s], which counts.
-    pub fn until(&self, end: f64) -> History {
-        let count = self.times.partition_point(|&t| t <= end * (1. + 1e-9));
-        History { times: self.times[..count].to_vec(), values: self.values[..count].to_vec() }
-    }
-
-    /// The largest magnitude, with the sign of a component.
-    pub fn peak(&self) -> Peak {
-        let magnitude = |v: &[f64; 2]| if v[1] == 0. { v[0] } else { v[0].hypot(v[1]) };
-        let rows = self.times.iter().zip(self.values.iter().map(magnitude));
-        let larger = |peak: Peak, (&time, value): (&f64, f64)| match value.abs() > peak.value.abs() {
-            true => Peak { value, time },
-            false => peak,
-        };
-        rows.fold(Peak::default(), larger)
-    }
-
-    /// From `self` to `other`, both at the same times; infinite where `other` is zero and `self` is not.
-    pub fn change_to(&self, other: &History) -> Change {
-        let scale = other.peak().value.abs();
-        let of_scale = |x: f64| if x == 0. { 0. } else { x / scale };
-        let distance = |(a, b): (&[f64; 2], &[f64; 2])| (b[0] - a[0]).hypot(b[1] - a[1]);
-        let largest = self.values.iter().zip(&other.values).map(distance).fold(0., f64::max);
-        Change { history: of_scale(largest), peak: of_scale((scale - self.peak().value.abs()).abs()) }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn history(values: &[[f64; 2]]) -> History {
-        History { times: (0..values.len()).map(|i| i as f64).collect(), values: values.to_vec() }
-    }
-
-    #[test]
-    fn a_change_is_the_largest_distance_over_the_largest_magnitude() {
-        let a = history(&[[0., 0.], [3., 4.], [0., 1.]]);
-        let b = history(&[[0., 0.], [3., 4.], [0., -3.]]);
-        let change = a.change_to(&b);
-        assert_eq!((change.history, change.peak), (0.8, 0.));
-        assert_eq!(a.until(1.).change_to(&b.until(1.)), Change::default());
-        assert_eq!(a.peak(), Peak { value: 5., time: 1. });
-        assert!(a.change_to(&history(&[[0.; 2]; 3])).history.is_infinite());
-    }
 
     #[test]
     fn a_name_says_what_is_compared() {

@@ -5,7 +5,8 @@
 mod bound;
 mod report;
 
-use super::quantity::{Change, History, Quantity};
+use super::history::{Change, History};
+use super::quantity::Quantity;
 use super::run::{self, Request};
 use super::script::Script;
 use super::series::{self, Member, Series, Variant};

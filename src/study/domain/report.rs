@@ -3,7 +3,7 @@
 use super::{Row, Size, Study};
 use crate::Result;
 use crate::results::plot::{Curve, Panel, svg};
-use crate::study::quantity::Quantity;
+use crate::study::history::History;
 use serde_json::{Value, json};
 
 /// As many digits as it needs, at most three behind the point.
@@ -155,7 +155,7 @@ impl Study<'_> {
     pub fn svg(&self, rows: &[Row]) -> Result<String> {
         let most = rows.iter().map(|row| worst(row, 0)).fold((0, 0.), |m, n| if n.1 > m.1 { n } else { m }).0;
         let quantity = &self.quantities[most];
-        let axis = component(quantity, rows, most);
+        let axis = component(&rows[0].histories[most]);
         let curve = |row: &Row| Curve {
             name: format!("{} x {}", short(row.size[0]), short(row.size[1])),
             points: row.histories[most]
@@ -177,7 +177,7 @@ impl Study<'_> {
             Panel {
                 title: format!(
                     "{quantity}{} for each {} x {}",
-                    ["", ", vertical"][axis],
+                    component_name(&rows[0].histories[most], axis),
                     self.options.width,
                     self.options.height
                 ),
@@ -201,10 +201,20 @@ impl Study<'_> {
     }
 }
 
-/// 1 where a vector moves most along y, else 0.
-fn component(quantity: &Quantity, rows: &[Row], i: usize) -> usize {
-    let largest = |axis: usize| rows[0].histories[i].values.iter().map(|v| v[axis].abs()).fold(0., f64::max);
-    usize::from(!quantity.is_ring() && largest(1) > largest(0))
+/// The component, or the ray, whose magnitude is largest.
+fn component(history: &History) -> usize {
+    let largest = |axis: usize| history.values.iter().map(|v| v[axis].abs()).fold(0., f64::max);
+    let axes = 0..history.values.first().map_or(0, Vec::len);
+    axes.max_by(|&a, &b| largest(a).total_cmp(&largest(b))).unwrap_or(0)
+}
+
+/// What the component is called in a title.
+fn component_name(history: &History, axis: usize) -> String {
+    match (history.angles.get(axis), history.values.first().map_or(0, Vec::len)) {
+        (Some(angle), _) => format!(" at {} degrees", short(*angle)),
+        (None, 2) => [", horizontal", ", vertical"][axis].into(),
+        _ => String::new(),
+    }
 }
 
 fn returns(r: &crate::model::arrival::Returns) -> Value {
