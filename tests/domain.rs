@@ -2,8 +2,10 @@
 //! bound on the default case.
 
 mod program;
+mod support;
 
 use coralpipe::model::arrival::{Return, Returns, returns};
+use coralpipe::model::mesh::Shape;
 use coralpipe::study::run::{Request, load};
 use program::{Bench, Outcome, code_of};
 use std::collections::BTreeMap;
@@ -238,4 +240,67 @@ fn held_sides_are_felt_as_soon_as_a_wave_has_run_from_them() {
     let h = of(&r.sides, "H").through_ground;
     let earliest = 10.7 / 631.977 - 1e-6; // speeds to six digits
     assert!((earliest..f64::hypot(4.6, 10.7) / 611.290).contains(&h), "{h}");
+}
+
+/// Squares of 1 m, 10 m wide and 6 m deep, without those for which `hole` holds; c_p = 259.44 m/s as above. P is the middle of
+/// the surface; `pin` a point at (5, -4), `foot` the left tenth of the base.
+fn with_hole(hole: bool, change: impl Fn(&mut serde_json::Value)) -> Returns {
+    let mut drawing = support::Drawing::default();
+    let nodes: Vec<Vec<usize>> =
+        (0..=6).map(|j| (0..=10).map(|i| drawing.node([f64::from(i), f64::from(j) - 6.])).collect()).collect();
+    for (j, i) in (0..6).flat_map(|j| (0..10).map(move |i| (j, i))).filter(|at| !hole || *at != (3, 4)) {
+        drawing.cell("ground", Shape::Quad4, &[nodes[j][i], nodes[j][i + 1], nodes[j + 1][i + 1], nodes[j + 1][i]]);
+    }
+    for i in 0..10 {
+        drawing.cell(if i == 0 { "foot" } else { "base" }, Shape::Line2, &[nodes[0][i], nodes[0][i + 1]]);
+        drawing.cell("top", Shape::Line2, &[nodes[6][i + 1], nodes[6][i]]);
+    }
+    for j in 0..6 {
+        drawing.cell("left", Shape::Line2, &[nodes[j][0], nodes[j + 1][0]]);
+        drawing.cell("right", Shape::Line2, &[nodes[j][10], nodes[j + 1][10]]);
+    }
+    drawing.cell("P", Shape::Point, &[nodes[6][5]]);
+    drawing.cell("pin", Shape::Point, &[nodes[2][5]]);
+    let mut json = serde_json::json!({
+        "materials": { "ground": { "young": "100 MPa", "poisson": 0.3, "density": 2000 } },
+        "supports": { "base": ["x", "y"], "foot": ["x", "y"], "left": ["x"], "right": ["x"] },
+        "loads": { "top": { "pressure": { "law": "step", "peak": "100 kPa" } } },
+        "time": { "step": "1 ms", "end": "10 ms" }, "probes": ["P"],
+    });
+    change(&mut json);
+    returns(&support::model(&json, &drawing.mesh())).unwrap()
+}
+
+/// Without pipes the sides are felt all the same where something inside scatters the plane wave. Lengths by hand: 2 m down to the
+/// hole's corner at (4, -2), 4 m to the side, 5 m to P; 4 + 5 + 5 by the pin; 6 + 0 + 5 by a base that is not held alike.
+#[test]
+fn sides_are_felt_by_way_of_whatever_scatters() {
+    let c = (100e6 * 0.7 / (1.3 * 0.4) / 2000f64).sqrt();
+    let side = |r: &Returns| of(&r.sides, "P").through_ground;
+    let plain = with_hole(false, |_| ());
+    assert!(plain.sides_carry_free_field && !plain.something_scatters && side(&plain).is_infinite(), "{plain:?}");
+    let hole = with_hole(true, |_| ());
+    let pin = with_hole(false, |json| json["supports"]["pin"] = serde_json::json!(["x"]));
+    let foot = with_hole(false, |json| json["supports"]["base"] = serde_json::json!(["x"]));
+    for (what, found, length) in [("hole", hole, 11.), ("pin", pin, 14.), ("foot", foot, 11.)] {
+        assert!(found.sides_carry_free_field && found.something_scatters, "{what}: {found:?}");
+        assert!((side(&found) * c / length - 1.).abs() < 1e-9, "{what}: {found:?}");
+    }
+}
+
+/// A node that moves at t = 0 sends waves as a load does.
+#[test]
+fn what_moves_from_the_start_is_a_source_of_waves() {
+    let c = (100e6 * 0.7 / (1.3 * 0.4) / 2000f64).sqrt();
+    let pin = serde_json::json!({ "pin": { "velocity": [0, -1] } });
+    let alone = with_hole(false, |json| {
+        json["loads"] = serde_json::json!({});
+        json["initial"] = pin.clone();
+    });
+    assert!(!alone.sides_carry_free_field && !alone.load_is_uniform, "{alone:?}");
+    // from (5, -4): 2 m down and 6 m up, 5 m across and back
+    assert!((of(&alone.base, "P").through_ground * c / 8. - 1.).abs() < 1e-9, "{alone:?}");
+    assert!((of(&alone.sides, "P").through_ground * c / 10. - 1.).abs() < 1e-9, "{alone:?}");
+    let both = with_hole(false, |json| json["initial"] = pin.clone());
+    assert!(!both.load_is_uniform && of(&both.sides, "P").through_ground * c <= 5. + 1e-9, "{both:?}");
 }

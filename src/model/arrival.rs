@@ -10,8 +10,11 @@
 //!
 //! The largest of these is taken: exact for vertical paths (p = 0, the base under a uniform load), a safe lower bound else.
 
+use super::initial::Initial;
+use super::mesh::Cell;
 use super::resolve::{Model, Target};
 use crate::physics::material::Material;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A rectangle [m]; a line or a point where it has no extent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,13 +44,15 @@ pub struct Returns {
     pub sides: Vec<Return>,
     /// the base holds u_y: it gives a plane wave back whole
     pub base_is_held: bool,
-    /// u_x = 0 or free field, under a load all over the level surface of level layers: only waves from bodies feel the sides
+    /// u_x = 0 or free field, under a load all over the level surface of level layers: only waves scattered inside feel the
+    /// sides
     pub sides_carry_free_field: bool,
+    /// bodies of interfaces, inner borders or inner supports are there to scatter waves
+    pub something_scatters: bool,
     /// a pressure all along the top at once
     pub load_is_uniform: bool,
-    /// P speed at the base, and the fastest in the ground [m/s]
+    /// P speed at the base [m/s]
     pub base_speed: f64,
-    pub fastest: f64,
 }
 
 impl Region {
@@ -60,6 +65,11 @@ impl Region {
 
     fn point([x, y]: [f64; 2]) -> Region {
         Region { x: [x, x], y: [y, y] }
+    }
+
+    fn holds(&self, other: &Region) -> bool {
+        let inside = |a: [f64; 2], b: [f64; 2]| a[0] - SAME_PLACE <= b[0] && b[1] <= a[1] + SAME_PLACE;
+        inside(self.x, other.x) && inside(self.y, other.y)
     }
 }
 
@@ -128,7 +138,7 @@ pub fn returns(model: &Model) -> Option<Returns> {
     let ground = ground(model);
     let bodies: Vec<Region> = model.bodies.iter().filter_map(|name| region_of(model, name)).collect();
     let all = Region::of(faces(model, |_| true))?;
-    let load = loaded(model)?;
+    let load = source(model)?;
     let base = Region { y: [all.y[0]; 2], ..all };
     let sides = [0, 1].map(|end| Region { x: [all.x[end]; 2], ..all });
     let rollers = sides.iter().all(|side| on(model, *side).all(|n| model.fixed[n][0]))
@@ -141,13 +151,14 @@ pub fn returns(model: &Model) -> Option<Returns> {
     let to_and_fro = |bodies: &[Region], from: Region, by: Region, to: Region| {
         ground.time_with(bodies, from, by) + ground.time_with(bodies, by, to)
     };
-    // a body is struck first, then sends waves to the side
-    let by_body = |bodies: &[Region], side: Region, probe: Region, between: &[Region]| {
-        let paths = bodies.iter().map(|&b| ground.time_with(between, load, b) + to_and_fro(between, b, side, probe));
-        paths.fold(f64::INFINITY, f64::min)
+    let scatterers: Vec<Region> = bodies.iter().copied().chain(obstacles(model, all, &bodies)).collect();
+    // what scatters is struck first, then sends waves to the side
+    let by_scatterer = |side: Region, probe: Region, between: &[Region]| {
+        let path = |&b: &Region| ground.time_with(between, load, b) + to_and_fro(between, b, side, probe);
+        scatterers.iter().map(path).fold(f64::INFINITY, f64::min)
     };
     let by_side = |side: Region, probe: Region, between: &[Region]| match carry {
-        true => by_body(&bodies, side, probe, between),
+        true => by_scatterer(side, probe, between),
         false => to_and_fro(between, load, side, probe),
     };
     let start = start(model);
@@ -166,7 +177,7 @@ pub fn returns(model: &Model) -> Option<Returns> {
         sides_carry_free_field: carry,
         load_is_uniform: uniform,
         base_speed: ground.speed_at(all.y[0]),
-        fastest: ground.fastest(),
+        something_scatters: !scatterers.is_empty(),
     })
 }
 
@@ -199,8 +210,51 @@ fn on(model: &Model, region: Region) -> impl Iterator<Item = usize> + '_ {
     nodes.filter(move |&n| inside(region.x, model.mesh.points[n][0]) && inside(region.y, model.mesh.points[n][1]))
 }
 
-/// Everything that is loaded.
-fn loaded(model: &Model) -> Option<Region> {
+/// Places inside at which a plane wave from the surface meets what it would not in endless ground: inner borders, as those of
+/// a cavity, and nodes held away from the box's edges, or along a base that is held or open in part. Those in `bodies` are
+/// known.
+fn obstacles(model: &Model, all: Region, bodies: &[Region]) -> Vec<Region> {
+    let near = |a: f64, b: f64| (a - b).abs() < SAME_PLACE;
+    let place = |node: usize| model.mesh.points[node];
+    let is_level = |y: f64, nodes: &[usize]| nodes.iter().all(|&n| near(place(n)[1], y));
+    let is_upright = |nodes: &[usize]| all.x.iter().any(|&x| nodes.iter().all(|&n| near(place(n)[0], x)));
+    let inner =
+        borders(model).into_iter().filter(|line| !all.y.iter().any(|&y| is_level(y, line)) && !is_upright(line));
+
+    let base: Vec<usize> = on(model, Region { y: [all.y[0]; 2], ..all }).collect();
+    let dashpots = model.absorbers.iter().filter(|a| is_level(all.y[0], &a.line.nodes));
+    let dashpots: BTreeSet<usize> = dashpots.flat_map(|a| a.line.nodes.iter().copied()).collect();
+    let alike = |is: &dyn Fn(usize) -> bool| base.iter().all(|&n| is(n)) || !base.iter().any(|&n| is(n));
+    let base_is_even = alike(&|n| model.fixed[n][1]) && alike(&|n| dashpots.contains(&n));
+    let uneven = base.iter().copied().filter(|_| !base_is_even);
+    // rollers on the sides, and an even base, are no obstacles
+    let held = on(model, all).filter(|&n| match model.fixed[n] {
+        [false, false] => false,
+        [true, false] if is_upright(&[n]) => false,
+        _ => !is_level(all.y[0], &[n]),
+    });
+    let nodes: BTreeSet<usize> = inner.flatten().chain(held).chain(uneven).collect();
+    let is_new = |place: &Region| !bodies.iter().any(|b| b.holds(place));
+    nodes.into_iter().map(|n| Region::point(place(n))).filter(is_new).collect()
+}
+
+/// Sides of faces that no other face has: (corner, corner).
+fn borders(model: &Model) -> Vec<[usize; 2]> {
+    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for (cell, _) in model.faces() {
+        let Cell { shape, nodes } = &model.mesh.cells[cell];
+        for side in shape.sides() {
+            let [a, b] = [nodes[side[0]], nodes[side[1]]];
+            *faces.entry([a.min(b), a.max(b)]).or_default() += 1;
+        }
+    }
+    faces.into_iter().filter(|(_, count)| *count == 1).map(|(side, _)| side).collect()
+}
+
+/// Everything that is loaded, or in motion at t = 0.
+fn source(model: &Model) -> Option<Region> {
+    let moves = moving(model).map(|n| model.mesh.points[n]);
+
     let nodes = model.loads.iter().flat_map(|load| match &load.target {
         Target::Pressure { lines } | Target::Traction { lines, .. } => {
             lines.iter().flat_map(|l| l.nodes.iter().copied()).collect::<Vec<_>>()
@@ -210,7 +264,13 @@ fn loaded(model: &Model) -> Option<Region> {
         }
         Target::Force { nodes, .. } => nodes.clone(),
     });
-    Region::of(nodes.map(|n| model.mesh.points[n]))
+    Region::of(nodes.map(|n| model.mesh.points[n]).chain(moves))
+}
+
+/// Nodes displaced or in motion at t = 0.
+fn moving(model: &Model) -> impl Iterator<Item = usize> + '_ {
+    let Initial { displacement, velocity } = &model.initial;
+    (0..displacement.len()).filter(|&n| displacement[n] != [0.; 2] || velocity[n] != [0.; 2])
 }
 
 /// Pressure all along the top at once, and nothing else.
@@ -219,11 +279,19 @@ fn is_uniform(model: &Model, all: Region, load: Region) -> bool {
     let same = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < SAME_PLACE && (a[1] - b[1]).abs() < SAME_PLACE;
     let length: f64 = model.loads.iter().map(|l| covered(model, &l.target)).fold(f64::INFINITY, f64::min);
     let at_once = model.loads.iter().all(|l| l.sweep.is_none());
-    at_once && same(load.x, top.x) && same(load.y, top.y) && (length - (top.x[1] - top.x[0])).abs() < SAME_PLACE
+    let at_rest = moving(model).next().is_none();
+    at_once
+        && at_rest
+        && same(load.x, top.x)
+        && same(load.y, top.y)
+        && (length - (top.x[1] - top.x[0])).abs() < SAME_PLACE
 }
 
-/// When the first load begins [s]; 0 for a front that sweeps, which is safe.
+/// When the first load begins [s]; 0 for a front that sweeps, which is safe, and where something moves from the start.
 fn start(model: &Model) -> f64 {
+    if moving(model).next().is_some() {
+        return 0.;
+    }
     let starts = model.loads.iter().map(|l| if l.sweep.is_some() { 0. } else { l.pulse.start().max(0.) });
     starts.reduce(f64::min).unwrap_or(0.)
 }

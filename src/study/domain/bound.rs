@@ -40,9 +40,13 @@ impl Study<'_> {
                 [base.through_ground, base.not_before, side.through_ground, side.not_before].map(milliseconds);
             text += &format!("  {:<9} {a:>17} {b:>7} {c:>20} {d:>7}\n", base.probe);
         }
-        text += match returns.sides_carry_free_field {
-            true => "  sides: they carry the uniform load's plane wave exactly; only waves from the pipes feel them\n",
-            false => "  sides: felt from the load's nearest point on\n",
+        text += match (returns.sides_carry_free_field, returns.something_scatters) {
+            (true, true) => {
+                "  sides: they carry the uniform load's plane wave exactly; only what pipes, cavities or inner supports scatter \
+                 feels them\n"
+            }
+            (true, false) => "  sides: they carry the uniform load's plane wave exactly, and nothing scatters it\n",
+            (false, _) => "  sides: felt from the nearest place on that is loaded, or moves at t = 0\n",
         };
         let base = first(Some(returns), [false, true], &self.quantities);
         if beta > 0. && base.is_finite() {
