@@ -36,7 +36,7 @@ pub fn absorbers(
         refuse_support(case, mesh, name, &group.cells)?;
         for (line, face) in border(mesh, group, sides)? {
             if *kind == Boundary::Viscous {
-                refuse_drain(mesh, name, &line, loads)?;
+                refuse_drain(mesh, name, &line, face, loads)?;
             }
             absorbers.push(Absorber { line, face, material: material_of(face), group: number });
         }
@@ -60,34 +60,44 @@ fn refuse_support(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Resu
     Ok(())
 }
 
-/// Where a load's own curve ends at a viscous one and pushes along it, the wave it makes runs along the dashpots.
-fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, loads: &[Load]) -> Result<()> {
+/// Where a load pushes along a viscous curve, the wave it makes runs along the dashpots: a load on a curve that ends there, or
+/// on the ground right behind an upright one.
+fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Load]) -> Result<()> {
     let along = line.tangent(mesh);
     for load in loads {
-        let lines = match &load.target {
-            Target::Pressure { lines } | Target::Traction { lines, .. } => lines,
+        let pushes: Vec<([f64; 2], usize)> = match &load.target {
+            Target::Pressure { lines } => {
+                let inwards = |l: &Border| [-l.tangent(mesh)[1], l.tangent(mesh)[0]];
+                ends_at(line, lines).map(|(loaded, corner)| (inwards(loaded), corner)).collect()
+            }
+            Target::Traction { lines, direction } => {
+                ends_at(line, lines).map(|(_, corner)| (*direction, corner)).collect()
+            }
+            Target::BodyForce { cells, direction } if cells.contains(&face) && along[1].abs() > along[0].abs() => {
+                vec![(*direction, line.nodes[0])]
+            }
             _ => continue,
         };
-        for loaded in lines.iter().filter(|l| l.nodes != line.nodes) {
-            let Some(&corner) = loaded.nodes.iter().find(|n| line.nodes.contains(n)) else { continue };
-            let [dx, dy] = match &load.target {
-                Target::Traction { direction, .. } => *direction,
-                _ => [-loaded.tangent(mesh)[1], loaded.tangent(mesh)[0]],
-            };
-            if (dx * along[0] + dy * along[1]).abs() > (dx * along[1] - dy * along[0]).abs() {
-                let [x, y] = mesh.points[corner];
-                return Err(Error::input(format!(
-                    "boundaries.{name}: it is \"viscous\", and the load on \"{}\" pushes along it where the two meet, at \
-                     ({x:.4}, {y:.4}) m: the ground beyond such a side moves with the wave, but dashpots would hold on to it and \
-                     drain it; write \"free_field\" there, or take it out of boundaries and hold it across: \
-                     \"supports\": {{ \"{name}\": [\"{}\"] }}",
-                    load.group,
-                    if along[1].abs() > along[0].abs() { "x" } else { "y" }
-                )));
-            }
+        let slides = |[dx, dy]: [f64; 2]| (dx * along[0] + dy * along[1]).abs() > (dx * along[1] - dy * along[0]).abs();
+        if let Some((_, node)) = pushes.into_iter().find(|(direction, _)| slides(*direction)) {
+            let [x, y] = mesh.points[node];
+            return Err(Error::input(format!(
+                "boundaries.{name}: it is \"viscous\", and the load on \"{}\" pushes along it where the two meet, at \
+                 ({x:.4}, {y:.4}) m: the ground beyond such a side moves with the wave, but dashpots would hold on to it and \
+                 drain it; write \"free_field\" there, or take it out of boundaries and hold it across: \
+                 \"supports\": {{ \"{name}\": [\"{}\"] }}",
+                load.group,
+                if along[1].abs() > along[0].abs() { "x" } else { "y" }
+            )));
         }
     }
     Ok(())
+}
+
+/// Those of the loaded lines that share a node with a boundary's line without being it, and the node.
+fn ends_at<'a>(line: &'a Border, loaded: &'a [Border]) -> impl Iterator<Item = (&'a Border, usize)> {
+    let others = loaded.iter().filter(|l| l.nodes != line.nodes);
+    others.filter_map(|l| Some((l, *l.nodes.iter().find(|n| line.nodes.contains(n))?)))
 }
 
 impl Model {
