@@ -46,6 +46,10 @@ struct Point {
     forces: Vec<[f64; 2]>,
 }
 
+/// A front that is nearer to one end of a part by no more than this share of the part's length is parallel to it: round-off
+/// of places.
+const AT_ONCE: f64 = 1e-9;
+
 impl Sweep {
     /// Errors where a charge's formula does not hold at some point of the lines.
     pub fn new(mesh: &Mesh, lines: &[Border], front: &Front, clock: Clock) -> Result<Sweep> {
@@ -99,11 +103,15 @@ impl Sweep {
         times.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
 
-    /// Slowest and fastest speed of the front along the lines, part by part [m/s].
+    /// Slowest and fastest speed of the front along the lines, part by part [m/s]; infinite where it reaches a part at once.
     pub fn trace_speeds(&self) -> [f64; 2] {
         let speed = |p: &Part| {
             let [a, b] = p.span.map(|r| p.place(r));
-            distance(a, b) / (self.arrival(b) - self.arrival(a))
+            let (length, way) = (distance(a, b), (self.front.way(b) - self.front.way(a)).abs());
+            match way <= AT_ONCE * length {
+                true => f64::INFINITY,
+                false => length / (self.arrival(b) - self.arrival(a)).abs(),
+            }
         };
         self.parts.iter().map(speed).fold([f64::INFINITY, 0.], |[low, high], u| [low.min(u), high.max(u)])
     }

@@ -41,8 +41,16 @@ fn rise(load: &Load, step: f64) -> String {
 /// The front's speed along its lines against the waves of every ground.
 fn front(sweep: &Sweep, model: &Model) -> String {
     let ([slow, fast], [first, last]) = (sweep.trace_speeds(), sweep.passage());
-    let speeds = if fast - slow < 1e-6 * slow { format!("{slow:.1}") } else { format!("{slow:.1} to {fast:.1}") };
-    let mut text = format!("    its front runs along the surface at {speeds} m/s, from {first:.6} to {last:.6} s\n");
+    let [first, last] = [first, last].map(|t| short((1e9 * t).round() / 1e9)); // without the round-off of places
+    if slow.is_infinite() {
+        return format!("    its front reaches all of the curve at once, at {first} s\n");
+    }
+    let speeds = match fast {
+        fast if fast - slow < 1e-6 * slow => format!("at {slow:.1} m/s"),
+        fast if fast.is_finite() => format!("at {slow:.1} to {fast:.1} m/s"),
+        _ => format!("at {slow:.1} m/s and more, a part of it at once"),
+    };
+    let mut text = format!("    its front runs along the surface {speeds}, from {first} to {last} s\n");
     for (name, material) in model.materials.iter().filter(|(name, _)| !model.bodies.contains(name)) {
         text += &format!(
             "    {name}: {}; c_p {:.1}, c_s {:.1}, c_R {:.1} m/s\n",
