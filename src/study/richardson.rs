@@ -41,12 +41,13 @@ impl Estimate {
         if !shrinks {
             return Estimate::Diverging;
         }
+        // a larger order than the method's own is luck: it must make the error smaller neither by the power nor by the step
+        let power = ratio.powf(order.min(FORMAL_ORDER));
+        let step = second.abs().max(first.abs() / power);
         if first * second < 0. {
-            return Estimate::Settling { limit: (middle + fine) / 2., error: second.abs() };
+            return Estimate::Settling { limit: (middle + fine) / 2., error: step };
         }
-        // a larger order than the method's own is luck: it must not make the error smaller
-        let rest = second / (ratio.powf(order.min(FORMAL_ORDER)) - 1.);
-        Estimate::Ordered { limit: fine + rest, order, error: SAFETY * rest.abs() }
+        Estimate::Ordered { limit: fine + second / (power - 1.), order, error: SAFETY * step / (power - 1.) }
     }
 
     /// The limit and its error, if there is one.
@@ -83,8 +84,18 @@ mod tests {
     #[test]
     fn an_order_better_than_the_methods_own_makes_no_smaller_error() {
         let Estimate::Ordered { order, error, .. } = Estimate::of(sequence(1., 0.01, 4., 2.), 2.) else { panic!() };
-        let step = 0.01 * 15.;
-        assert!((order - 4.).abs() < 1e-9 && (error - 1.25 * step / 3.).abs() < 1e-12);
+        // the first step, 0.01 (256 - 16) = 2.4, at order 2: a second of 0.6, and 0.2 to go
+        assert!((order - 4.).abs() < 1e-9 && (error - 1.25 * 0.2).abs() < 1e-12);
+    }
+
+    /// Steps of 0.05 and 0.0001 are no order of 15: by the first of them, at order 2 and ratio 1.5, 0.05 / 2.25 = 0.0222 is
+    /// still to come in the second and 0.0222 / 1.25 after it.
+    #[test]
+    fn two_values_that_happen_to_agree_do_not_make_a_small_error() {
+        let Estimate::Ordered { error, .. } = Estimate::of([1., 1.05, 1.0501], 1.5) else { panic!() };
+        assert!((error - 1.25 * 0.05 / 2.25 / 1.25).abs() < 1e-12, "{error}");
+        let Estimate::Settling { error, .. } = Estimate::of([1., 1.05, 1.0499], 1.5) else { panic!() };
+        assert!((error - 0.05 / 2.25).abs() < 1e-12, "{error}");
     }
 
     #[test]
