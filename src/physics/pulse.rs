@@ -66,6 +66,26 @@ impl Pulse {
         }
     }
 
+    /// The time from which on the load is zero for good [s]; infinite for one that stays.
+    pub fn end(&self) -> f64 {
+        match self {
+            Pulse::Linear { duration, .. } | Pulse::HalfSine { duration, .. } => *duration,
+            Pulse::Friedlander { duration, negative, .. } => duration + negative.map_or(0.0, |n| n.duration),
+            Pulse::Step { peak } | Pulse::Ramp { peak, .. } => {
+                if *peak == 0.0 {
+                    0.0
+                } else {
+                    f64::INFINITY
+                }
+            }
+            Pulse::Table { times, values } => match values.iter().rposition(|&v| v != 0.0) {
+                None => times.first().copied().unwrap_or(0.0),
+                Some(last) => times.get(last + 1).copied().unwrap_or(f64::INFINITY),
+            },
+            Pulse::Delayed { law, start, rise } => start + rise + law.end(),
+        }
+    }
+
     /// Whether it begins with a jump, from zero to a value.
     pub fn jumps(&self) -> bool {
         self.at(self.start()) != 0.0
@@ -208,6 +228,25 @@ mod tests {
             assert!((sine.at(t) - p).abs() < 1e-15, "t = {t}");
         }
         assert_eq!([ramp.rise_time(), sine.rise_time()], [2.0, 1.0]);
+    }
+
+    #[test]
+    fn a_load_ends_where_it_is_zero_for_good_or_never() {
+        let table = |values: &[f64]| Pulse::Table { times: vec![1.0, 2.0, 4.0, 9.0], values: values.to_vec() };
+        let negative = Some(Suction { peak: 1.0, duration: 3.0 });
+        for (pulse, end) in [
+            (Pulse::Linear { peak: 1.0, duration: 2.0 }, 2.0),
+            (Pulse::Step { peak: 1.0 }, f64::INFINITY),
+            (Pulse::Ramp { peak: 1.0, duration: 2.0 }, f64::INFINITY),
+            (Pulse::Friedlander { peak: 1.0, duration: 2.0, decay: 1.0, negative }, 5.0),
+            (table(&[0.0, 1.0, 0.0, 0.0]), 4.0),
+            (table(&[0.0, 1.0, 0.0, 0.5]), f64::INFINITY),
+            (table(&[0.0; 4]), 1.0),
+            (Pulse::Linear { peak: 1.0, duration: 2.0 }.delayed(10.0, 0.5), 12.5),
+        ] {
+            assert_eq!(pulse.end(), end, "{pulse:?}");
+            assert!(end.is_infinite() || pulse.at(end) == 0.0 && pulse.at(end + 1.0) == 0.0, "{pulse:?}");
+        }
     }
 
     #[test]

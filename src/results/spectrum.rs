@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// Share of the energy of p(t), 0 <= t <= end, that lies below each of the rising `frequencies` [Hz].
+/// Share of the energy of p(t), first <= t <= last, that lies below each of the rising `frequencies` [Hz].
 ///
 /// P(f) = integral of p exp(-2 pi i f t) dt; energy = integral of p^2 dt = 2 integral of |P|^2 df over f > 0 (Parseval).
 #[derive(Debug, Clone, PartialEq)]
@@ -11,19 +11,20 @@ pub struct Spectrum {
     below: Vec<f64>,
 }
 
-/// Intervals of the history; what lies above `SAMPLES / 4 end` counts as lying there.
+/// Intervals of the history, of the length last - first; what lies above SAMPLES / 4 length counts as lying there.
 const SAMPLES: usize = 2048;
 /// Frequencies, equally far apart on a logarithmic scale.
 const FREQUENCIES: usize = 300;
-/// The lowest of them, times `end`: below it |P| is |P(0)|.
+/// The lowest of them, times the length: below it |P| is |P(0)|.
 const LOWEST: f64 = 0.01;
 
 impl Spectrum {
-    /// None where the load is zero throughout.
-    pub fn of(history: impl Fn(f64) -> f64, end: f64) -> Option<Spectrum> {
-        let dt = end / SAMPLES as f64;
+    /// Of a history from its first moment to its last [s]; none where it is zero throughout.
+    pub fn of(history: impl Fn(f64) -> f64, [first, last]: [f64; 2]) -> Option<Spectrum> {
+        let length = last - first;
+        let dt = length / SAMPLES as f64;
         let weight = |i: usize| if i == 0 || i == SAMPLES { dt / 2. } else { dt };
-        let p: Vec<f64> = (0..=SAMPLES).map(|i| history(i as f64 * dt)).collect();
+        let p: Vec<f64> = (0..=SAMPLES).map(|i| history(first + i as f64 * dt)).collect();
         let energy: f64 = p.iter().enumerate().map(|(i, p)| weight(i) * p * p).sum();
         let density = |f: f64| {
             let wave = |i: usize| (2. * PI * f * i as f64 * dt).sin_cos();
@@ -33,7 +34,7 @@ impl Spectrum {
             });
             re * re + im * im
         };
-        let [low, high] = [LOWEST / end, SAMPLES as f64 / (4. * end)];
+        let [low, high] = [LOWEST / length, SAMPLES as f64 / (4. * length)];
         let step = (high / low).powf(1. / (FREQUENCIES - 1) as f64);
         let frequencies: Vec<f64> = (0..FREQUENCIES).map(|k| low * step.powi(k as i32)).collect();
         let densities: Vec<f64> = frequencies.iter().map(|&f| density(f)).collect();
@@ -61,8 +62,14 @@ impl Spectrum {
 
     /// The frequency [Hz] below which that share of the energy lies.
     pub fn frequency_of(&self, share: f64) -> f64 {
-        let after = self.below.partition_point(|&x| x < share);
-        self.frequencies[after.min(self.frequencies.len() - 1)]
+        match self.below.partition_point(|&x| x < share) {
+            0 => self.frequencies[0],
+            n if n == self.below.len() => self.frequencies[n - 1],
+            n => {
+                let [a, b] = [n - 1, n].map(|i| (self.frequencies[i], self.below[i]));
+                a.0 + (b.0 - a.0) * (share - a.1) / (b.1 - a.1)
+            }
+        }
     }
 }
 
@@ -75,7 +82,7 @@ mod tests {
     #[test]
     fn a_load_that_jumps_has_a_tail_of_one_over_f() {
         let tau = 0.05;
-        let spectrum = Spectrum::of(|t| if t < tau { 1. - t / tau } else { 0. }, 2. * tau).unwrap();
+        let spectrum = Spectrum::of(|t| if t < tau { 1. - t / tau } else { 0. }, [0., 2. * tau]).unwrap();
         let f = 10. / tau;
         let expected = 3. / (2. * PI * PI * f * tau);
         assert!(((1. - spectrum.share_below(f)) / expected - 1.).abs() < 0.02);
@@ -85,7 +92,7 @@ mod tests {
     #[test]
     fn at_low_frequencies_a_pulse_is_its_impulse() {
         let tau = 0.02;
-        let spectrum = Spectrum::of(|t| if t < tau { 1. - t / tau } else { 0. }, tau).unwrap();
+        let spectrum = Spectrum::of(|t| if t < tau { 1. - t / tau } else { 0. }, [0., tau]).unwrap();
         // |P| falls by (2 pi f tau)^2 / 36 relative to P(0): 1e-4 at f tau = 0.01
         assert!((spectrum.share_below(0.01 / tau) / 0.015 - 1.).abs() < 1e-3);
         let half = spectrum.frequency_of(0.5);
@@ -94,6 +101,6 @@ mod tests {
 
     #[test]
     fn a_load_of_nothing_has_no_spectrum() {
-        assert_eq!(Spectrum::of(|_| 0., 1.), None);
+        assert_eq!(Spectrum::of(|_| 0., [0., 1.]), None);
     }
 }

@@ -1,5 +1,6 @@
 //! From a model to a system that is ready to march: matrices, natural modes, damping.
 
+use super::damping;
 use super::orders;
 use crate::model::case::{Analysis, Rayleigh as Damping};
 use crate::model::resolve::Model;
@@ -39,7 +40,7 @@ impl Prepared {
         Prepared::ordered(model, Orders::default())
     }
 
-    fn ordered(model: Model, orders: Orders) -> Result<Prepared> {
+    fn ordered(mut model: Model, orders: Orders) -> Result<Prepared> {
         let start = Instant::now();
         let system = System::ordered(&model, &orders)?;
         if system.unknowns.count == 0 {
@@ -54,13 +55,15 @@ impl Prepared {
         let damping = model.damping.filter(|_| moves).map(|d| d.rayleigh);
         let modes = if moves { modes_of(&model, &system, &symbolic, &orders, needed_modes(damping))? } else { vec![] };
         let rayleigh = coefficients(damping, &modes)?;
+        model.warnings.extend(damping::beyond_the_boundaries(&model, rayleigh.alpha));
         let joints = model.damping.is_some_and(|d| d.interfaces);
         let system = system.with_damping(rayleigh, joints);
         Ok(Prepared { model, system, symbolic, modes, rayleigh, orders: orders.into(), setup, factor: start.elapsed() })
     }
 
     /// Likewise for a model that differs in loads and friction only: nothing is assembled, ordered or solved again.
-    pub fn with_loads_of(&self, model: Model) -> Result<Prepared> {
+    pub fn with_loads_of(&self, mut model: Model) -> Result<Prepared> {
+        model.warnings.extend(damping::beyond_the_boundaries(&model, self.rayleigh.alpha));
         Ok(Prepared {
             system: self.system.with_loads_of(&model)?,
             model,
