@@ -4,7 +4,7 @@ mod program;
 mod support;
 
 use coralpipe::model::mesh::{Mesh, Shape};
-use coralpipe::model::resolve::Model;
+use coralpipe::model::resolve::{Load, Model};
 use coralpipe::model::sweep::Sweep;
 use coralpipe::physics::explosion::{Burst, Explosion, Form, Formula, Wave};
 use coralpipe::solve::system::System;
@@ -46,6 +46,23 @@ fn the_command_prints_the_parameters_as_text_and_json() {
     let text = bench.run_line("blast --charge 1t --standoff 30m --wave reflected --form equal_impulse").stdout;
     for words in ["kingery_bulmash", "3.0000 m/kg^(1/3)", "115.6674 kPa", "zero at", "reflected", "****"] {
         assert!(text.contains(words), "no {words} in {text}");
+    }
+}
+
+/// A tonne at 30 m: the tangent, 115.667 kPa for 9.41 ms, carries 544 kPa ms, the pulse and the line of equal impulse 927.
+#[test]
+fn the_impulse_that_acts_is_that_of_the_form_chosen() {
+    let bench = Bench::new("acting");
+    for (form, words, expected) in [
+        ("tangent", "impulse 544.", 544.4),
+        ("friedlander", "impulse 927.", 927.6),
+        ("equal_impulse", "impulse 927.", 927.6),
+    ] {
+        let line = format!("--charge 1t --standoff 30m --wave incident --form {form}");
+        let told = bench.run_line(&format!("blast {line}")).stdout;
+        assert!(told.lines().any(|l| l.starts_with("what acts") && l.contains(words)), "{told}");
+        let found = number(&blast(&bench, &line), "/acting_impulse_pa_s");
+        assert!((found / expected - 1.).abs() < 2e-3, "{form}: {found}");
     }
 }
 
@@ -153,6 +170,13 @@ fn check_names_the_front_against_the_grounds_waves() {
         let told = bench.run(&["check", "block.json", "--set", &set]).stdout;
         assert!(told.contains(words) && told.contains(&format!("at {speed}.0 m/s")), "{told}");
         assert!(!told.contains("body: su"), "a body behind an interface is no ground: {told}");
+    }
+    // straight down on a level surface, and nearly so: 1e-10 of direction is round-off of a unit vector
+    for direction in ["[0,-1]", "[1e-10,-1]"] {
+        let set = format!(r#"loads.top.pressure.front={{"speed":300,"direction":{direction}}}"#);
+        let told = bench.run(&["check", "block.json", "--set", &set]).stdout;
+        assert!(told.contains("reaches all of the curve at once, at ") && !told.contains("inf"), "{told}");
+        assert!(!told.contains("seismic"), "{told}");
     }
 }
 
@@ -293,4 +317,93 @@ fn a_run_behind_a_front_closes_its_energy_ledger() {
     let summary: Value =
         serde_json::from_slice(&std::fs::read(bench.path("output/block/summary.json")).unwrap()).unwrap();
     assert!(number(&summary, "/energy/max_relative_error") < 1e-9, "{}", summary["energy"]);
+}
+
+/// The one load that a pressure of the case makes.
+fn load(pressure: Value) -> Load {
+    let (mesh, json) = block(false, pressure);
+    support::model(&json, &mesh).loads.remove(0)
+}
+
+/// `scale` halves every law, at any time, the blast of a charge among them.
+#[test]
+fn scale_is_a_factor_on_every_law() {
+    let charge = json!({ "charge": "8 kg", "standoff": "6 m", "wave": "reflected" });
+    let laws = [
+        json!({ "law": "linear", "peak": 8, "duration": 0.01 }),
+        json!({ "law": "step", "peak": 8 }),
+        json!({ "law": "ramp", "peak": 8, "duration": 0.01 }),
+        json!({ "law": "half_sine", "peak": 8, "duration": 0.01 }),
+        json!({ "law": "friedlander", "peak": 8, "duration": 0.002, "decay": 1, "negative_peak": 2, "negative_duration": 0.02 }),
+        json!({ "law": "table", "times": [0, 0.01], "values": [8, 4] }),
+        json!({ "law": "charge", "explosion": charge }),
+    ];
+    for law in laws {
+        let mut half = law.clone();
+        half["scale"] = json!(0.5);
+        half["start"] = json!(0.001);
+        let (whole, half) = (load(law.clone()).pulse, load(half).pulse);
+        let times = [0.5e-3, 1.5e-3, 3e-3];
+        assert!(times.iter().any(|&t| whole.at(t) != 0.), "{law}");
+        // later by 1 ms: round-off of the time
+        assert!(
+            times.iter().all(|&t| (half.at(t + 1e-3) - 0.5 * whole.at(t)).abs() <= 1e-9 * whole.at(t).abs()),
+            "{law}"
+        );
+    }
+}
+
+/// The averaged factors of TM 5-855-1, and a factor of the user's own before them.
+#[test]
+fn a_charge_counts_as_its_mass_of_tnt() {
+    let bench = Bench::new("equivalence");
+    let factors = [
+        ("tnt", 1.),
+        ("anfo", 0.82),
+        ("composition_b", 1.11),
+        ("c4", 1.37),
+        ("h6", 1.38),
+        ("minol", 1.2),
+        ("octol", 1.06),
+        ("petn", 1.27),
+        ("pentolite", 1.42),
+        ("tetryl", 1.07),
+        ("tritonal", 1.07),
+    ];
+    let tnt = |line: &str| number(&blast(&bench, &format!("--charge 100 --standoff 20 {line}")), "/tnt_kg");
+    for (name, factor) in factors {
+        assert!((tnt(&format!("--explosive {name}")) / 100. - factor).abs() < 1e-12, "{name}");
+    }
+    assert!((tnt("--explosive c4 --equivalence 1.3") / 100. - 1.3).abs() < 1e-12);
+}
+
+/// Kingery and Bulmash at Z = 3 on the ground: U = 479.268 m/s, by an independent program, over the 3 m of the block.
+#[test]
+fn a_front_without_a_speed_has_the_shocks() {
+    let charge = json!({ "charge": "1 t", "standoff": "30 m", "wave": "incident" });
+    let load = load(json!({ "law": "charge", "explosion": charge, "front": { "direction": [1, 0] } }));
+    let [first, last] = load.sweep.unwrap().passage();
+    assert!(first == 0. && (last * 479.268 / 3. - 1.).abs() < 1e-5, "{first} {last}");
+}
+
+/// 8 kg on the level of the surface, 10 m from its end: Z = 5, t_a = 8.24491 ms/kg^(1/3) times 2.
+#[test]
+fn the_clock_counts_from_the_arrival_or_from_the_detonation() {
+    for (clock, expected) in [("arrival", 0.), ("detonation", 16.48982e-3)] {
+        let charge =
+            json!({ "charge": "8 kg", "at": [-10, 1], "burst": "hemispherical", "wave": "incident", "clock": clock });
+        let first = load(json!({ "law": "charge", "explosion": charge })).sweep.unwrap().passage()[0];
+        assert!((first - expected).abs() < 1e-8, "{clock}: {first}");
+    }
+}
+
+#[test]
+fn a_file_gives_its_columns_in_the_units_of_its_heading() {
+    let file = support::temporary("history.csv");
+    std::fs::write(&file, "t [ms]; p [bar] # a comment\n1; 2\n3; 6\n").unwrap();
+    let pulse = load(json!({ "law": "table", "file": file })).pulse;
+    std::fs::remove_file(file).unwrap();
+    for (t, expected) in [(0.9e-3, 0.), (1e-3, 2e5), (2e-3, 4e5), (9e-3, 6e5)] {
+        assert!((pulse.at(t) - expected).abs() < 1e-6, "t = {t}: {}", pulse.at(t));
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::curve;
 use crate::model::case::{Blast, ExplosionKeys, sentence_of};
-use crate::physics::explosion::{Explosion, Parameters};
+use crate::physics::explosion::{Explosion, Form, Parameters};
 use crate::physics::friedlander;
 use crate::physics::pulse::Pulse;
 use crate::results::file;
@@ -80,7 +80,21 @@ fn report(explosion: &Explosion, distance: f64, p: &Parameters, pulse: &Pulse) -
     text += &line("straight line: tangent at t = 0", format!("zero at {tangent}"));
     text += &line("straight line: equal impulse", format!("zero at {equal_impulse}"));
     text += &p.notes.iter().map(|note| format!("  note: {note}\n")).collect::<String>();
-    text + &format!("\nwhat acts, the {} pressure: {}\n", explosion.wave.name(), super::loads::law(pulse, "Pa"))
+    text + &format!(
+        "\nwhat acts, the {} pressure: {}; impulse {:.4} kPa ms\n",
+        explosion.wave.name(),
+        super::loads::law(pulse, "Pa"),
+        impulse(explosion, p)
+    )
+}
+
+/// Of the pulse that acts, in its form [Pa s].
+fn impulse(explosion: &Explosion, p: &Parameters) -> f64 {
+    let acting = explosion.acting(p);
+    match explosion.form {
+        Form::Tangent => acting.peak * straight_lines(explosion, p)[0] / 2.,
+        Form::Friedlander | Form::EqualImpulse => acting.impulse,
+    }
 }
 
 /// Durations of the two straight lines for the pressure that acts [s].
@@ -104,6 +118,7 @@ fn as_json(explosion: &Explosion, distance: f64, parameters: &Parameters) -> Val
         "reflected": parameters.reflected,
         "arrival_s": parameters.arrival,
         "duration_s": parameters.duration,
+        "acting_impulse_pa_s": impulse(explosion, parameters),
         "tangent_duration_s": tangent,
         "equal_impulse_duration_s": equal_impulse,
         "front_speed_m_s": parameters.front_speed,

@@ -292,7 +292,12 @@ impl Explosion {
     fn scaled(&self, z: f64, notes: &mut Vec<String>) -> Scaled {
         let all = kingery_bulmash_at(self.burst, z);
         match self.formula {
-            Formula::KingeryBulmash => all,
+            Formula::KingeryBulmash => {
+                if table_of(self.burst).speed.is_empty() {
+                    notes.push("the speed is an ideal gas's: the formula has none for this burst".into());
+                }
+                all
+            }
             Formula::Swisdak => Scaled {
                 incident: [
                     swisdak::value(&swisdak::INCIDENT_PRESSURE, z),

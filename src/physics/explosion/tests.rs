@@ -179,3 +179,70 @@ fn every_formula_ends_at_its_range_and_names_it() {
         }
     }
 }
+
+/// The rows of independent values at Z = 2, through the formula's own name and burst: peak, and duration where it has one
+/// (Sadovsky's 1.35 and 1.7 sqrt Z ms).
+#[test]
+fn every_formula_gives_its_own_peak_and_duration() {
+    use Burst::{Hemispherical, Spherical};
+    let rows = [
+        (Formula::KinneyGraham, Spherical, 207.93, 1.1700, 86.423),
+        (Formula::Sadovsky, Spherical, 193.19, 1.9092, NONE),
+        (Formula::Sadovsky, Hemispherical, 329.01, 2.4042, NONE),
+        (Formula::SadovskyManuals, Hemispherical, 301.55, 2.4042, NONE),
+        (Formula::Brode, Spherical, 156.35, 1.8459, NONE),
+        (Formula::Henrych, Spherical, 175.45, 1.555, NONE),
+        (Formula::Mills, Spherical, 247.0, 1.8459, NONE),
+        (Formula::NewmarkHansen, Hemispherical, 188.78, 2.0495, NONE),
+    ];
+    for (formula, burst, peak, duration, impulse) in rows {
+        let row = [peak, NONE, impulse, NONE, NONE, duration, NONE];
+        // four printed digits
+        agree(&format!("{formula:?}, {burst:?}"), values(formula, burst, 2.), row, 4e-4);
+    }
+}
+
+/// By hand from the peaks of Z = 2: P_r and U of an ideal gas; arrival, decay and where it is lacking the duration of
+/// Kingery and Bulmash, so impulse = their i / (P t_d) times the formula's peak and duration.
+#[test]
+fn what_a_formula_lacks_is_an_ideal_gass_or_kingery_and_bulmashs() {
+    let rows = [
+        (Formula::Brode, Burst::Spherical, [156.35, 482.14, 73.988, 176.00, 1.9440, 1.8459, 518.61], 70.600),
+        (Formula::Sadovsky, Burst::Spherical, [193.19, 634.52, 94.556, 239.56, 1.9440, 1.9092, 552.30], 103.39),
+        (
+            Formula::NewmarkHansen,
+            Burst::Hemispherical,
+            [188.78, 615.66, 89.451, 212.04, 1.6959, 2.0495, 548.38],
+            99.209,
+        ),
+    ];
+    for (formula, burst, row, dynamic) in rows {
+        agree(&format!("{formula:?}"), values(formula, burst, 2.), row, 1e-4); // five digits
+        let p = of(formula, burst, 1.).parameters(2.);
+        assert!((p.dynamic_pressure / 1e3 / dynamic - 1.).abs() < 1e-4, "{formula:?}: {p:?}");
+        assert!(p.notes.iter().any(|note| note.contains("an ideal gas's: reflected peak, speed")), "{p:?}");
+    }
+    // their spherical burst has no speed: 340.29 sqrt(1 + 6 P / 7 P_0) of 194.67 and 31.296 kPa, and q = 5 P^2 / 2 (P + 7 P_0)
+    for (z, speed, dynamic) in [(2., 553.62, 104.81), (5., 382.69, 3.3064)] {
+        let p = of(Formula::KingeryBulmash, Burst::Spherical, 1.).parameters(z);
+        assert!((p.front_speed / speed - 1.).abs() < 2e-5 && (p.dynamic_pressure / 1e3 / dynamic - 1.).abs() < 1e-4);
+        assert!(p.notes.iter().any(|note| note.contains("the speed is an ideal gas's")), "{p:?}");
+        assert!(of(Formula::KingeryBulmash, Burst::Hemispherical, 1.).parameters(z).notes.is_empty());
+    }
+}
+
+/// Swisdak's row of Z = 3, 115.7 and 330.7 kPa, 92.7 and 224.3 kPa ms: the pulse begins with the peak of the wave asked for and
+/// carries its impulse, in each form but the tangent. 0.2 % are the row's four digits.
+#[test]
+fn the_pulse_is_that_of_the_wave_that_acts() {
+    for (wave, peak, impulse) in [(Wave::Incident, 115.7e3, 92.7), (Wave::Reflected, 330.7e3, 224.3)] {
+        for form in [Form::Friedlander, Form::EqualImpulse] {
+            let explosion = Explosion { wave, form, ..of(Formula::Swisdak, Burst::Hemispherical, 1.) };
+            let pulse = explosion.pulse(3.);
+            assert!((pulse.at(0.) / peak - 1.).abs() < 2e-3, "{wave:?}: {}", pulse.at(0.));
+            let (count, dt) = (4000, pulse.end() / 4000.);
+            let carried: f64 = (0..count).map(|i| pulse.at((f64::from(i) + 0.5) * dt) * dt).sum();
+            assert!((carried / impulse - 1.).abs() < 2e-3, "{wave:?} {form:?}: {carried}");
+        }
+    }
+}
