@@ -5,7 +5,7 @@ mod support;
 
 use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::resolve::Model;
-use coralpipe::solve::energy::Ledger;
+use coralpipe::solve::energy::{Forms, Ledger};
 use coralpipe::solve::start;
 use coralpipe::solve::system::{Rayleigh, State, System};
 use nalgebra::{Complex, Matrix2, Matrix4, Vector2, Vector4};
@@ -84,7 +84,7 @@ fn motion(json: &Value, mesh: &Mesh, rayleigh: Rayleigh) -> (Vec<Vec<[f64; 2]>>,
     support::march(&model, &system, |state| {
         let ledger = match &last {
             None => Ledger::start(&system, state),
-            Some((old, ledger)) => ledger.after(&system, old, state),
+            Some((old, ledger)) => ledger.after(&system, old, state, Forms::of(&system, old, state)),
         };
         rows.push([&state.q, &state.v].into_iter().flat_map(|x| system.unknowns.at_nodes(x)).collect());
         last = Some((state.clone(), ledger));

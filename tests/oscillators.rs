@@ -4,7 +4,7 @@ mod support;
 
 use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::resolve::Model;
-use coralpipe::solve::energy::Ledger;
+use coralpipe::solve::energy::{Forms, Ledger};
 use coralpipe::solve::modes::{natural_modes, rayleigh};
 use coralpipe::solve::system::{State, System};
 use coralpipe::sparse::multiply;
@@ -152,7 +152,7 @@ fn the_average_acceleration_balances_energy_in_every_step() {
         let work = (dot(&system.load(old.time), &du) + dot(&system.load(new.time), &du)) / 2.;
         let lost = model.time.step * dot(&v, &multiply(&system.damping, &v));
         worst = worst.max((energy(new) - energy(old) - work + lost).abs() / largest);
-        ledger = ledger.after(&system, old, new);
+        ledger = ledger.after(&system, old, new, Forms::of(&system, old, new));
     }
     println!("energy: {worst:.1e} in a step, ledger {:.1e}", ledger.max_relative_error());
     assert!(worst < 1e-12 && ledger.max_relative_error() < 1e-10, "{worst:.1e} {:.1e}", ledger.max_relative_error());

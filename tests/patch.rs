@@ -229,7 +229,8 @@ fn static_jumps(model: &Model, system: &System) -> (Vec<f64>, Vec<JointState>) {
     let schur = faer::Mat::from_fn(n - first, n - first, |i, j| (schur[(i, j)] + schur[(j, i)]) / 2.);
     let old = vec![JointState::default(); system.interface.points.len()];
     let problem = Problem { interface: &system.interface, right_hand_side: b.as_slice(), old: &old, damping: None };
-    let solution = Contact::new(schur, model.newton).solve(&problem, &vec![0.; n - first]).unwrap();
+    let still = vec![0.; n - first];
+    let solution = Contact::new(schur, model.newton).solve(&problem, &still, &still).unwrap();
     (solution.jumps, solution.responses.iter().map(JointState::from).collect())
 }
 

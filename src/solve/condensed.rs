@@ -73,7 +73,8 @@ impl Condensed {
     ) -> Result<(Vec<f64>, Settled), Unsettled> {
         let mut x = b;
         self.factor.condense(&mut x);
-        let settled = self.settle(system, &mut x, guess, old, damping)?;
+        let jumps = &mut x[system.unknowns.first_jump..];
+        let settled = self.settle(system, jumps, [guess, guess], old, damping)?;
         self.factor.expand(&mut x);
         Ok((x, settled))
     }
@@ -82,20 +83,18 @@ impl Condensed {
         &self.factor
     }
 
-    /// Between the sweeps: from the condensed right-hand side at the end of `x` to the jumps that satisfy the joints, put
-    /// in its place. The joints move on from `old`; `guess` of the jumps starts Newton.
+    /// Between the sweeps: from the condensed right-hand side `x` to the jumps that satisfy the joints, put in its place. The joints move on from `old`; the `last` jumps and the `expected` ones start Newton.
     pub fn settle(
         &mut self,
         system: &System,
         x: &mut [f64],
-        guess: &[f64],
+        [last, expected]: [&[f64]; 2],
         old: &[JointState],
         damping: Option<JointDamping>,
     ) -> Result<Settled, Unsettled> {
-        let right_hand_side = system.jumps(x).to_vec();
-        let problem = Problem { interface: &system.interface, right_hand_side: &right_hand_side, old, damping };
-        let solution = self.contact.solve(&problem, guess)?;
-        x[system.unknowns.first_jump..].copy_from_slice(&solution.jumps);
+        let problem = Problem { interface: &system.interface, right_hand_side: x, old, damping };
+        let solution = self.contact.solve(&problem, last, expected)?;
+        x.copy_from_slice(&solution.jumps);
         Ok(Settled {
             joints: solution.responses.iter().map(JointState::from).collect(),
             iterations: solution.iterations,

@@ -90,11 +90,14 @@ impl Contact {
     }
 
     /// Newton with the statuses inside the loop; where they run in a circle, the fixed point on Tresca's bound.
-    pub fn solve(&mut self, problem: &Problem, guess: &[f64]) -> Result<Solution, Unsettled> {
-        self.newton(problem, guess).or_else(|unsettled| {
-            let near = self.fixed_point(problem, guess).ok_or(unsettled)?;
+    ///
+    /// It starts from the jumps `last` of the last state, on the branches of r that `expected` jumps lie on: a point that
+    /// slips stands just on the edge of slip, and only where it is going tells that it goes on.
+    pub fn solve(&mut self, problem: &Problem, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
+        self.newton(problem, last, expected).or_else(|unsettled| {
+            let near = self.fixed_point(problem, last).ok_or(unsettled)?;
             // From so near Newton ends at round-off, unless it circles again.
-            let polished = self.newton(problem, &near.jumps);
+            let polished = self.newton(problem, &near.jumps, &near.jumps);
             Ok(polished.map_or(near.clone(), |s| Solution {
                 iterations: near.iterations + s.iterations,
                 displacement_test: near.displacement_test,
@@ -103,41 +106,52 @@ impl Contact {
         })
     }
 
-    fn newton(&mut self, problem: &Problem, guess: &[f64]) -> Result<Solution, Unsettled> {
-        let mut jumps = guess.to_vec();
-        let mut responses = problem.respond(&jumps, None);
-        let mut residual = self.residual(problem, &jumps, &responses);
+    fn newton(&mut self, problem: &Problem, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
+        let mut jumps = last.to_vec();
+        let mut branches = self.branches(problem, expected);
+        let mut residual = self.on_branches(problem, &jumps, &branches);
         let mut seen: Vec<Vec<Status>> = Vec::new();
         let mut correction = 0.;
         for iterations in 0..=self.options.max_iterations {
-            let statuses: Vec<Status> = responses.iter().map(|r| r.status).collect();
-            let settled = seen.last() == Some(&statuses);
+            let settled = seen.last() == Some(&branches.statuses);
             if residual.predicted && (settled || residual.relative() <= ROUND_OFF) {
-                residual = self.residual(problem, &jumps, &responses);
+                if branches.at != jumps {
+                    branches = self.branches(problem, &jumps);
+                }
+                residual = self.residual(problem, &jumps, &branches.responses);
             }
             if !residual.predicted && residual.relative() <= if settled { self.options.tolerance } else { ROUND_OFF } {
-                let displacement_test = ratio(correction, distance(&jumps, guess));
+                let displacement_test = ratio(correction, distance(&jumps, last));
                 self.last = Some((jumps.clone(), residual.linear));
-                return Ok(Solution { jumps, responses, iterations, displacement_test });
+                return Ok(Solution { jumps, responses: branches.responses, iterations, displacement_test });
             }
-            let turns_in_a_circle = !settled && seen.contains(&statuses);
+            let turns_in_a_circle = !settled && seen.contains(&branches.statuses);
             if turns_in_a_circle || iterations == self.options.max_iterations {
-                return Err(self.unsettled(problem, &residual, seen.last(), statuses));
+                return Err(self.unsettled(problem, &residual, seen.last(), branches.statuses));
             }
             if settled {
                 // The tangent was right and yet the step missed: corrections have worn the inverse.
                 self.inverse.forget();
             }
-            let tangents = self.tangents(problem, &responses);
-            let step = self.inverse.solve(&self.schur, problem.interface, &tangents, &residual.force);
+            let step = self.inverse.solve(&self.schur, problem.interface, &branches.tangents, &residual.force);
             jumps.iter_mut().zip(&step).for_each(|(j, d)| *j -= d);
-            let next = problem.respond(&jumps, None);
-            residual = self.predicted(problem, &responses, &tangents, &step, &next, &residual);
-            responses = next;
+            let next = self.branches(problem, &jumps);
+            residual = self.predicted(problem, &branches, &next, &residual);
             correction = norm(&step);
-            seen.push(statuses);
+            seen.push(std::mem::replace(&mut branches, next).statuses);
         }
         unreachable!("the last iteration returns")
+    }
+
+    /// The branches of r that the joints are on with these jumps.
+    fn branches(&self, problem: &Problem, jumps: &[f64]) -> Branches {
+        let responses = problem.respond(jumps, None);
+        Branches {
+            at: jumps.to_vec(),
+            statuses: responses.iter().map(|r| r.status).collect(),
+            tangents: self.tangents(problem, &responses),
+            responses,
+        }
     }
 
     fn unsettled(
@@ -168,7 +182,10 @@ impl Contact {
 
     /// S j + r - b.
     pub(super) fn residual(&self, problem: &Problem, jumps: &[f64], responses: &[Response]) -> Residual {
-        let joint = problem.interface.forces(responses.iter().map(|r| r.traction));
+        self.residual_with(problem, jumps, problem.interface.forces(responses.iter().map(|r| r.traction)))
+    }
+
+    fn residual_with(&self, problem: &Problem, jumps: &[f64], joint: Vec<f64>) -> Residual {
         let b = problem.right_hand_side;
         let linear = match &self.last {
             Some((last, product)) if last == jumps => product.clone(),
@@ -179,24 +196,47 @@ impl Contact {
         Residual { force, scale, linear, predicted: false }
     }
 
-    /// The residual after a Newton step without S: with (S + D) d = F(j) it is F(j - d) = r(j - d) - r(j) + D d, which
-    /// is zero at every point that stayed on its branch.
-    fn predicted(
-        &self,
-        problem: &Problem,
-        old: &[Response],
-        tangents: &[Matrix2<f64>],
-        step: &[f64],
-        new: &[Response],
-        last: &Residual,
-    ) -> Residual {
-        let same_branch = |i: usize| old[i].status == new[i].status && old[i].tangent == new[i].tangent;
-        let missed = |(i, point): (usize, &JointPoint)| match same_branch(i) && self.stabilisation == 0. {
-            true => Vector2::zeros(),
-            false => new[i].traction - old[i].traction + tangents[i] * problem.interface.local(point, step),
+    /// S j + r - b with r on the straight line through a branch: r(at) + D (j - at).
+    fn on_branches(&self, problem: &Problem, jumps: &[f64], branches: &Branches) -> Residual {
+        if branches.at == jumps {
+            return self.residual(problem, jumps, &branches.responses);
+        }
+        let lines = branches.lines(problem, jumps);
+        Residual { predicted: true, ..self.residual_with(problem, jumps, problem.interface.forces(lines)) }
+    }
+
+    /// The residual after a Newton step without S: on the old branches it is zero, so what is left is what the new ones
+    /// differ from them, which is nothing at every point that stayed on its branch.
+    fn predicted(&self, problem: &Problem, old: &Branches, new: &Branches, last: &Residual) -> Residual {
+        let same = |i: usize| {
+            let (old, new) = (&old.responses[i], &new.responses[i]);
+            self.stabilisation == 0. && old.status == new.status && old.tangent == new.tangent
         };
-        let force = problem.interface.forces(problem.interface.points.iter().enumerate().map(missed));
+        let missed = |(i, on_old): (usize, Vector2<f64>)| match same(i) {
+            true => Vector2::zeros(),
+            false => new.responses[i].traction - on_old,
+        };
+        let force = problem.interface.forces(old.lines(problem, &new.at).enumerate().map(missed));
         Residual { force, scale: last.scale, linear: Vec::new(), predicted: true }
+    }
+}
+
+/// What every joint point answers to some jumps, and along which line it goes on from there.
+struct Branches {
+    /// the jumps [m]
+    at: Vec<f64>,
+    statuses: Vec<Status>,
+    responses: Vec<Response>,
+    /// D of Newton's matrix [Pa/m]
+    tangents: Vec<Matrix2<f64>>,
+}
+
+impl Branches {
+    /// r(at) + D (j - at) of every point [Pa].
+    fn lines<'a>(&'a self, problem: &'a Problem, jumps: &[f64]) -> impl Iterator<Item = Vector2<f64>> + 'a {
+        let moved: Vec<f64> = jumps.iter().zip(&self.at).map(|(j, at)| j - at).collect();
+        let points = self.responses.iter().zip(&self.tangents).zip(&problem.interface.points);
+        points.map(move |((r, d), point)| r.traction + d * problem.interface.local(point, &moved))
     }
 }
 

@@ -8,7 +8,8 @@
 //! The residual is round-off; with other Newmark parameters or HHT it is their numerical damping, and where the case
 //! starts with a = 0 it holds the first imbalance.
 
-use super::system::{Rayleigh, State, System};
+use super::step::Step;
+use super::system::{Products, Rayleigh, State, System};
 use crate::sparse::multiply;
 use crate::sparse::vector::dot;
 use sprs::CsMat;
@@ -48,7 +49,7 @@ pub struct Ledger {
 
 impl Ledger {
     pub fn start(system: &System, state: &State) -> Ledger {
-        let (now, _) = stored(system, state, &state.v);
+        let now = stored(system, state, Forms::of(system, state, state));
         Ledger {
             now: Energies { work: now.kinetic + now.strain + now.joint, ..now },
             peak: now.kinetic + now.strain + now.joint,
@@ -59,8 +60,8 @@ impl Ledger {
         }
     }
 
-    /// The ledger after one accepted step.
-    pub fn after(&self, system: &System, old: &State, new: &State) -> Ledger {
+    /// The ledger after one accepted step; `forms` of its two states.
+    pub fn after(&self, system: &System, old: &State, new: &State, forms: Forms) -> Ledger {
         let dt = new.time - old.time;
         let load = system.load(new.time);
         let free_field = free_field(system, new);
@@ -69,9 +70,9 @@ impl Ledger {
 
         let work = mean_dot(&self.load, &load, &du);
         let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
-        let (stored, drained) = stored(system, new, &old.v);
+        let stored = stored(system, new, forms);
         let dashpots = system.dashpots.as_ref().map_or(0., |c| dt * drained_by(c, &old.v, &new.v));
-        let damping = dt * drained - dashpots;
+        let damping = dt * forms.drained - dashpots;
         let beyond = outside(system, new).iter().sum::<f64>() - outside(system, old).iter().sum::<f64>();
         let friction = friction(system, old, new);
         let mut now = Energies {
@@ -122,28 +123,54 @@ pub fn joint_gain(system: &System, old: &State, new: &State) -> f64 {
     stored_in_joints(system, new) - stored_in_joints(system, old) + friction(system, old, new) - work
 }
 
-/// Kinetic + strain + joint energy of a state [J].
-pub fn mechanical(system: &System, state: &State) -> f64 {
-    let (now, _) = stored(system, state, &state.v);
-    now.kinetic + now.strain + now.joint
+/// Kinetic + strain + joint energy at the end of a step [J].
+pub fn mechanical(system: &System, step: &Step) -> f64 {
+    let stored = stored(system, &step.state, step.forms);
+    stored.kinetic + stored.strain + stored.joint
 }
 
-/// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store [J], without the boundaries' shares of M and K; and w'Cw [W],
-/// w the mean of the old velocity and the new.
-fn stored(system: &System, state: &State, old_v: &[f64]) -> (Energies, f64) {
-    let products = &system.products;
-    let motion: Vec<[f64; 3]> =
-        (0..old_v.len()).map(|i| [state.q[i], state.v[i], (state.v[i] + old_v[i]) / 2.]).collect();
-    let [strain, kinetic, drained] =
-        products.pattern.quadratic_forms([&products.stiffness, &products.mass, &products.damping], &motion);
+/// Quadratic forms of a state and the one before, over all of K, M and C.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Forms {
+    /// u'Ku [J]
+    strain: f64,
+    /// v'Mv [J]
+    kinetic: f64,
+    /// w'Cw [W], w the mean of the last velocity and this one
+    drained: f64,
+}
+
+impl Forms {
+    pub fn of(system: &System, old: &State, new: &State) -> Forms {
+        Forms::of_all::<1>(system, &[Some((old, new))])[0]
+    }
+
+    /// Of up to K pairs (old, new), reading the matrices once; nothing for none.
+    pub fn of_all<const K: usize>(system: &System, pairs: &[Option<(&State, &State)>]) -> Vec<Forms> {
+        let Products { pattern, stiffness, mass, damping } = &*system.products;
+        let of_unknown = |i: usize| {
+            let mut motion = [[0.; K]; 3];
+            for (k, (old, new)) in pairs.iter().enumerate().filter_map(|(k, pair)| Some((k, (*pair)?))) {
+                [motion[0][k], motion[1][k], motion[2][k]] = [new.q[i], new.v[i], (new.v[i] + old.v[i]) / 2.];
+            }
+            motion
+        };
+        let motion: Vec<[[f64; K]; 3]> = (0..system.unknowns.count).map(of_unknown).collect();
+        let [strain, kinetic, drained] = pattern.quadratic_forms([stiffness, mass, damping], &motion);
+        let forms = |k: usize| Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] };
+        (0..pairs.len()).map(forms).collect()
+    }
+}
+
+/// Kinetic v'Mv/2, strain u'Ku/2 and what the joints store [J], without the boundaries' shares of M and K.
+fn stored(system: &System, state: &State, forms: Forms) -> Energies {
     let [beyond_v, beyond_q] = outside(system, state);
-    let stored = Energies {
-        kinetic: kinetic / 2. - beyond_v,
-        strain: strain / 2. - beyond_q,
+    Energies {
+        kinetic: forms.kinetic / 2. - beyond_v,
+        strain: forms.strain / 2. - beyond_q,
         joint: stored_in_joints(system, state),
         ..Energies::default()
-    };
-    (stored, drained)
+    }
 }
 
 /// w'Cw [W], w the mean velocity.

@@ -14,45 +14,56 @@ const MANY: usize = 8;
 #[derive(Default)]
 pub struct Inverse {
     kept: Option<Kept>,
+    /// how the last tangents differ from those of the inverse
+    change: Option<Change>,
 }
 
 struct Kept {
     /// D of every joint point that the inverse belongs to [Pa/m]
     tangents: Vec<Matrix2<f64>>,
+    /// R
     inverse: Mat<f64>,
 }
 
 impl Inverse {
     /// (S + sum area N' R' D R N)^-1 f, D per joint point. Zeros in f cost nothing.
     pub fn solve(&mut self, schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>], f: &[f64]) -> Vec<f64> {
-        let (kept, change) = self.near(schur, interface, tangents);
+        self.move_to(schur, interface, tangents);
+        let kept = self.kept.as_ref().expect("made just before");
         let mut x = kept.times(f);
-        if let Some(change) = change {
-            // x - R E (1 + C E'R E)^-1 C E'x, E the columns of the identity that the change touches
-            let weights = change.weights(&kept.inverse, ColRef::from_slice(&change.places_of(&x)).as_mat());
-            for (k, &j) in change.places.iter().enumerate() {
-                add_column(&mut x, -weights[(k, 0)], &kept.inverse, j);
-            }
+        if let Some(change) = &self.change {
+            change.correct(&mut x, &kept.inverse);
         }
         x
     }
 
     /// Lets go of an inverse that many corrections have made inexact.
     pub fn forget(&mut self) {
-        self.kept = None;
+        (self.kept, self.change) = (None, None);
     }
 
     /// An inverse whose tangents differ from the given ones in few places, and how.
-    fn near(&mut self, schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>]) -> (&Kept, Option<Change>) {
+    fn move_to(&mut self, schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>]) {
         let limit = interface.count / MANY;
-        let change = self.kept.as_ref().map(|kept| Change::new(interface, &kept.tangents, tangents));
-        let kept = match (self.kept.take(), &change) {
-            (Some(kept), Some(change)) if change.places.len() <= limit => kept,
-            (Some(kept), Some(change)) if change.places.len() <= 4 * limit => kept.corrected(change, tangents),
-            _ => Kept::new(schur, interface, tangents),
-        };
-        let rest = change.filter(|c| kept.tangents != tangents && !c.places.is_empty());
-        (self.kept.insert(kept), rest)
+        match self.kept.take() {
+            Some(kept) if kept.tangents == tangents => (self.kept, self.change) = (Some(kept), None),
+            Some(kept) if self.change.as_ref().is_some_and(|change| change.to == tangents) => self.kept = Some(kept),
+            Some(kept) => {
+                let places = touched(interface, &kept.tangents, tangents);
+                (self.kept, self.change) = match places.len() {
+                    n if n <= limit => {
+                        let change = Change::new(interface, &kept, tangents, places);
+                        (Some(kept), Some(change))
+                    }
+                    n if n <= 4 * limit => {
+                        let change = Change::new(interface, &kept, tangents, places);
+                        (Some(kept.corrected(change)), None)
+                    }
+                    _ => (Some(Kept::new(schur, interface, tangents)), None),
+                };
+            }
+            None => (self.kept, self.change) = (Some(Kept::new(schur, interface, tangents)), None),
+        }
     }
 }
 
@@ -65,14 +76,14 @@ impl Kept {
         Kept { tangents: tangents.to_vec(), inverse: matrix.partial_piv_lu().inverse() }
     }
 
-    /// R - R E (1 + C E'R E)^-1 C E'R.
-    fn corrected(self, change: &Change, tangents: &[Matrix2<f64>]) -> Kept {
+    /// R - R E W E'R.
+    fn corrected(self, change: Change) -> Kept {
         let (mut inverse, n) = (self.inverse, change.places.len());
         let rows = Mat::from_fn(n, inverse.ncols(), |k, j| inverse[(change.places[k], j)]);
         let columns = Mat::from_fn(inverse.nrows(), n, |i, k| inverse[(i, change.places[k])]);
-        let weights = change.weights(&inverse, rows.as_ref());
-        faer::linalg::matmul::matmul(&mut inverse, Accum::Add, &columns, &weights, -1., Par::Seq);
-        Kept { tangents: tangents.to_vec(), inverse }
+        let weighted = &change.weights * rows;
+        faer::linalg::matmul::matmul(&mut inverse, Accum::Add, &columns, &weighted, -1., Par::Seq);
+        Kept { tangents: change.to, inverse }
     }
 
     /// R f.
@@ -88,40 +99,46 @@ impl Kept {
     }
 }
 
-/// What some joint points' tangents add to the matrix: E C E', with E picking the places they touch.
+/// The places in the vector of jumps at which joint points see other tangents, ascending.
+fn touched(interface: &Interface, from: &[Matrix2<f64>], to: &[Matrix2<f64>]) -> Vec<usize> {
+    let points = interface.points.iter().zip(from).zip(to).filter(|((_, from), to)| from != to);
+    let mut places: Vec<usize> = points.flat_map(|((point, _), _)| interface.places(point)).collect();
+    places.sort_unstable();
+    places.dedup();
+    places
+}
+
+/// What some joint points' tangents add to the matrix: E C E', with E picking the places they touch. Its inverse is
+/// R - R E W E'R, W = (1 + C E'R E)^-1 C.
 struct Change {
+    /// D of every joint point [Pa/m]
+    to: Vec<Matrix2<f64>>,
     /// ascending
     places: Vec<usize>,
-    /// C [N/m]
-    matrix: Mat<f64>,
+    /// W [N/m]
+    weights: Mat<f64>,
 }
 
 impl Change {
-    fn new(interface: &Interface, from: &[Matrix2<f64>], to: &[Matrix2<f64>]) -> Change {
-        let points = || interface.points.iter().zip(from).zip(to).filter(|((_, from), to)| from != to);
-        let mut places = Vec::new();
-        points().for_each(|((point, _), _)| places.extend(interface.places(point)));
-        places.sort_unstable();
-        places.dedup();
-        let mut matrix = Mat::zeros(places.len(), places.len());
+    fn new(interface: &Interface, kept: &Kept, to: &[Matrix2<f64>], places: Vec<usize>) -> Change {
+        let n = places.len();
         let at = |i: usize| places.binary_search(&i).expect("collected from the same points");
-        for ((point, from), to) in points() {
+        let mut matrix = Mat::zeros(n, n);
+        let points = interface.points.iter().zip(&kept.tangents).zip(to);
+        for ((point, from), to) in points.filter(|((_, from), to)| from != to) {
             interface.tangent(point, &(to - from), |i, j, value| matrix[(at(i), at(j))] += value);
         }
-        Change { places, matrix }
+        let seen = Mat::from_fn(n, n, |i, j| kept.inverse[(places[i], places[j])]);
+        let system = Mat::<f64>::identity(n, n) + &matrix * seen;
+        Change { to: to.to_vec(), weights: system.partial_piv_lu().solve(matrix), places }
     }
 
-    /// (1 + C E'R E)^-1 C X for the rows X that are E' of something.
-    fn weights(&self, inverse: &Mat<f64>, x: faer::MatRef<f64>) -> Mat<f64> {
-        let n = self.places.len();
-        let inner = Mat::from_fn(n, n, |i, j| inverse[(self.places[i], self.places[j])]);
-        let system = Mat::<f64>::identity(n, n) + &self.matrix * inner;
-        system.partial_piv_lu().solve(&self.matrix * x)
-    }
-
-    /// E'x.
-    fn places_of(&self, x: &[f64]) -> Vec<f64> {
-        self.places.iter().map(|&i| x[i]).collect()
+    /// x - R E W E'x.
+    fn correct(&self, x: &mut [f64], inverse: &Mat<f64>) {
+        let seen: Vec<f64> = self.places.iter().map(|&i| x[i]).collect();
+        for (weight, &j) in dense_times(&self.weights, &seen).iter().zip(&self.places) {
+            add_column(x, -weight, inverse, j);
+        }
     }
 }
 

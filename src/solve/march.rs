@@ -32,8 +32,9 @@ struct Budget {
 impl Budget {
     /// Newmark's force within a step is a straight line, a joint's is not where it opens or closes: the step then gains
     /// about kappa v^2 dt^2, a quarter of it after halving the step.
-    fn allows(&mut self, system: &System, old: &State, new: &State) -> bool {
-        self.peak = self.peak.max(mechanical(system, new));
+    fn allows(&mut self, system: &System, old: &State, step: &Step) -> bool {
+        let new = &step.state;
+        self.peak = self.peak.max(mechanical(system, step));
         joint_gain(system, old, new) <= self.rate * (new.time - old.time) * self.peak
     }
 }
@@ -111,7 +112,7 @@ impl<'a> March<'a> {
         let system = self.system;
         match whole.and_then(|step| finite(system, step)) {
             tried if level == MAX_CUTS => Ok(vec![tried?]),
-            Ok(step) if self.budget.as_mut().is_none_or(|b| b.allows(system, old, &step.state)) => Ok(vec![step]),
+            Ok(step) if self.budget.as_mut().is_none_or(|b| b.allows(system, old, &step)) => Ok(vec![step]),
             _ => {
                 let mut steps = self.advance_at(level + 1, old)?;
                 let half_way = &steps.last().expect("an advance has at least one step").state;

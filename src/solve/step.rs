@@ -5,12 +5,14 @@
 
 use super::condensed::{Condensed, Reference, Settled};
 use super::contact::{JointDamping, Unsettled};
+use super::energy::Forms;
 use super::free_field::Column;
+use super::interface::JointState;
 use super::newmark::Constants;
 use super::system::{Products, State, System, combine};
 use crate::model::case::{Integrator, Newton};
 use crate::sparse::vector::{add, add_at};
-use crate::sparse::{NotPositiveDefinite, Symbolic, multiply};
+use crate::sparse::{MOST_LANES, NotPositiveDefinite, Symbolic, multiply, with_lanes_for};
 
 /// What a step solves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +54,8 @@ pub struct Step {
     pub iterations: usize,
     /// the paper's test (19), on the jumps
     pub displacement_test: f64,
+    /// what its energies are made of
+    pub forms: Forms,
 }
 
 impl Stepper {
@@ -94,36 +98,22 @@ impl Stepper {
 
     /// From one state to the next; the old one is not touched.
     pub fn step(&mut self, system: &System, old: &State) -> Result<Step, Unsettled> {
-        let Prepared { mut x, free_field } = self.prepare(system, old)?;
-        self.condensed.factor().condense(&mut x);
-        let settled = self.settle(system, &mut x, old)?;
-        self.condensed.factor().expand(&mut x);
-        Ok(self.complete(x, free_field, settled, old))
+        step_together(&mut [self], &[system], &[old]).swap_remove(0)
     }
 
-    /// What is solved for, before the forward sweep.
-    fn prepare(&mut self, system: &System, old: &State) -> Result<Prepared, Unsettled> {
-        let free_field = self.free_field(system, old)?;
-        let x = match self.law {
-            Law::Static { dt } => system.load(old.time + dt),
-            Law::Dynamic(dynamic) => dynamic.right_hand_side(system, old, &free_field),
+    /// Between the sweeps: from the condensed right-hand side to the jumps, put in its place.
+    fn settle(&mut self, system: &System, jumps: &mut [f64], old: &State) -> Result<Settled, Unsettled> {
+        let last = system.jumps(&old.q);
+        let (expected, damping) = match self.law {
+            Law::Static { .. } => (last.to_vec(), None),
+            Law::Dynamic(dynamic) => (dynamic.expected_jumps(system, old), dynamic.joint_damping(system, old)),
         };
-        Ok(Prepared { x, free_field })
-    }
-
-    /// Between the sweeps.
-    fn settle(&mut self, system: &System, x: &mut [f64], old: &State) -> Result<Settled, Unsettled> {
-        let damping = match self.law {
-            Law::Static { .. } => None,
-            Law::Dynamic(dynamic) => dynamic.joint_damping(system, old),
-        };
-        self.condensed.settle(system, x, system.jumps(&old.q), &old.joints, damping)
+        self.condensed.settle(system, jumps, [last, &expected], &old.joints, damping)
     }
 
     /// After the backward sweep.
-    fn complete(&self, q: Vec<f64>, free_field: Vec<State>, settled: Settled, old: &State) -> Step {
-        let Settled { joints, iterations, displacement_test } = settled;
-        let state = match self.law {
+    fn complete(&self, q: Vec<f64>, free_field: Vec<State>, joints: Vec<JointState>, old: &State) -> State {
+        match self.law {
             Law::Static { dt } => {
                 let zero = vec![0.; q.len()];
                 State { time: old.time + dt, q, v: zero.clone(), a: zero, joints, free_field }
@@ -134,8 +124,7 @@ impl Stepper {
                 let v = (0..q.len()).map(|i| constants.velocity(a[i], before(i))).collect();
                 State { time: old.time + constants.dt, q, v, a, joints, free_field }
             }
-        };
-        Step { state, iterations, displacement_test }
+        }
     }
 
     /// The columns beyond free-field sides, which know nothing of the model, one step later.
@@ -145,34 +134,35 @@ impl Stepper {
     }
 }
 
-/// A right-hand side, and the states of the columns that it took.
-struct Prepared {
-    x: Vec<f64>,
-    free_field: Vec<State>,
-}
-
 impl Dynamic {
-    /// (1 + alpha) f - alpha f_t + M (a0 q + a2 v + a3 a) + (1 + alpha) C (a1 q + a4 v + a5 a) + alpha (C v + K q).
-    fn right_hand_side(&self, system: &System, old: &State, free_field: &[State]) -> Vec<f64> {
-        let time = old.time + self.constants.dt;
-        let before = |i: usize| [old.q[i], old.v[i], old.a[i]];
+    /// What M and C are multiplied by in unknown i: a0 q + a2 v + a3 a and (1 + alpha)(a1 q + a4 v + a5 a) + alpha v.
+    fn inertial(&self, old: &State, i: usize) -> [f64; 2] {
+        let before = [old.q[i], old.v[i], old.a[i]];
+        let for_damping = (1. + self.hht) * self.constants.for_damping(before) + self.hht * old.v[i];
+        [self.constants.for_mass(before), for_damping]
+    }
+
+    /// (1 + alpha) f - alpha f_t + alpha K q, the free field's forces among f.
+    fn forces(&self, system: &System, old: &State, free_field: &[State]) -> Vec<f64> {
+        let mut f = system.load(old.time + self.constants.dt);
         let weight = 1. + self.hht;
-        let for_mass = |i: usize| self.constants.for_mass(before(i));
-        let for_damping = |i: usize| weight * self.constants.for_damping(before(i)) + self.hht * old.v[i];
-        let for_both: Vec<[f64; 2]> = (0..old.q.len()).map(|i| [for_mass(i), for_damping(i)]).collect();
-        let Products { pattern, mass, damping, .. } = &*system.products;
-        let mut rhs = pattern.sum_of_products([mass, damping], &for_both);
-        add(&mut rhs, 1., &system.load(time));
-        add_at(&mut rhs, weight, &system.free_field_force(free_field));
-        add_at(&mut rhs, 1., &system.free_field_inertia(free_field));
         if self.hht != 0. {
-            let mut change = system.load(time);
+            let mut change = f.clone();
             add(&mut change, -1., &system.load(old.time));
             add_at(&mut change, -1., &system.free_field_force(&old.free_field));
             add(&mut change, 1., &multiply(&system.stiffness, &old.q));
-            add(&mut rhs, self.hht, &change);
+            add(&mut f, self.hht, &change);
         }
-        rhs
+        add_at(&mut f, weight, &system.free_field_force(free_field));
+        add_at(&mut f, 1., &system.free_field_inertia(free_field));
+        f
+    }
+
+    /// j + dt j' + dt^2 j'' / 2.
+    fn expected_jumps(&self, system: &System, old: &State) -> Vec<f64> {
+        let dt = self.constants.dt;
+        let [q, v, a] = [&old.q, &old.v, &old.a].map(|x| system.jumps(x));
+        (0..q.len()).map(|i| q[i] + dt * v[i] + dt * dt / 2. * a[i]).collect()
     }
 
     fn joint_damping(&self, system: &System, old: &State) -> Option<JointDamping> {
@@ -186,60 +176,95 @@ impl Dynamic {
     }
 }
 
-/// A step of several systems that share one factor: L is read once for all of them, and each gets the digits that it
-/// gets alone.
+/// A step of several systems that share one factor: L, M, C and K are read once for all of them, and each gets the digits
+/// that it gets alone.
 ///
 /// # Panics
-/// If there are not as many steppers, systems and old states.
+/// If there are not as many steppers, systems and old states, from one to [`MOST_TOGETHER`].
 pub fn step_together(
     steppers: &mut [&mut Stepper],
     systems: &[&System],
     old: &[&State],
 ) -> Vec<Result<Step, Unsettled>> {
-    match steppers.len() {
-        0 => vec![],
-        1 => vec![steppers[0].step(systems[0], old[0])],
-        2 => lanes::<2>(steppers, systems, old),
-        3 | 4 => lanes::<4>(steppers, systems, old),
-        _ => lanes::<8>(steppers, systems, old),
-    }
+    assert!(steppers.len() == systems.len() && systems.len() == old.len(), "a stepper, a system and a state each");
+    with_lanes_for!(steppers.len(), lanes(steppers, systems, old))
 }
 
 /// Most systems that [`step_together`] takes at once.
-pub const MOST_TOGETHER: usize = 8;
+pub const MOST_TOGETHER: usize = MOST_LANES;
 
 fn lanes<const K: usize>(
     steppers: &mut [&mut Stepper],
     systems: &[&System],
     old: &[&State],
 ) -> Vec<Result<Step, Unsettled>> {
-    let cases = steppers.len();
-    assert!(cases == systems.len() && cases == old.len() && cases <= K, "a stepper, a system and a state each");
-    let mut lanes = vec![[0.; K]; systems[0].unknowns.count];
-    let prepared: Vec<_> = (0..cases).map(|k| steppers[k].prepare(systems[k], old[k])).collect();
-    for (k, prepared) in prepared.iter().enumerate() {
-        if let Ok(prepared) = prepared {
-            lanes.iter_mut().zip(&prepared.x).for_each(|(lane, x)| lane[k] = *x);
-        }
-    }
-    steppers[0].condensed.factor().condense_lanes(&mut lanes);
+    let free_fields: Vec<_> = (0..old.len()).map(|k| steppers[k].free_field(systems[k], old[k])).collect();
+    let mut x = right_hand_sides::<K>(steppers, systems, old, &free_fields);
+    steppers[0].condensed.factor().condense_lanes(&mut x);
     let first = systems[0].unknowns.first_jump;
-    let settled: Vec<_> = prepared
-        .into_iter()
-        .enumerate()
-        .map(|(k, prepared)| {
-            let Prepared { mut x, free_field } = prepared?;
-            lanes[first..].iter().zip(&mut x[first..]).for_each(|(lane, x)| *x = lane[k]);
-            let settled = steppers[k].settle(systems[k], &mut x, old[k])?;
-            lanes[first..].iter_mut().zip(&x[first..]).for_each(|(lane, x)| lane[k] = *x);
-            Ok((x, free_field, settled))
+    let settled: Vec<_> = (0..old.len())
+        .map(|k| {
+            let mut jumps: Vec<f64> = x[first..].iter().map(|x| x[k]).collect();
+            let settled = steppers[k].settle(systems[k], &mut jumps, old[k])?;
+            x[first..].iter_mut().zip(&jumps).for_each(|(x, jump)| x[k] = *jump);
+            Ok(settled)
         })
         .collect();
-    steppers[0].condensed.factor().expand_lanes(&mut lanes);
-    let complete = |(k, settled): (usize, Result<_, Unsettled>)| {
-        let (mut x, free_field, settled): (Vec<f64>, _, _) = settled?;
-        lanes.iter().zip(&mut x).for_each(|(lane, x)| *x = lane[k]);
-        Ok(steppers[k].complete(x, free_field, settled, old[k]))
+    steppers[0].condensed.factor().expand_lanes(&mut x);
+    let completed: Vec<_> = settled
+        .into_iter()
+        .zip(free_fields)
+        .enumerate()
+        .map(|(k, (settled, free_field))| {
+            let Settled { joints, iterations, displacement_test } = settled?;
+            let q = x.iter().map(|x| x[k]).collect();
+            let state = steppers[k].complete(q, free_field?, joints, old[k]);
+            Ok(Step { state, iterations, displacement_test, forms: Forms::default() })
+        })
+        .collect();
+    with_forms::<K>(systems[0], old, completed)
+}
+
+/// Row i: what unknown i has on the right-hand side of each system. One whose columns did not settle gets none.
+fn right_hand_sides<const K: usize>(
+    steppers: &[&mut Stepper],
+    systems: &[&System],
+    old: &[&State],
+    free_fields: &[Result<Vec<State>, Unsettled>],
+) -> Vec<[f64; K]> {
+    let mut x = match steppers[0].law {
+        Law::Static { .. } => vec![[0.; K]; systems[0].unknowns.count],
+        Law::Dynamic(dynamic) => {
+            let of_all = |i: usize| {
+                let mut motion = [[0.; K]; 2];
+                for (k, old) in old.iter().enumerate() {
+                    [motion[0][k], motion[1][k]] = dynamic.inertial(old, i);
+                }
+                motion
+            };
+            let motion: Vec<[[f64; K]; 2]> = (0..systems[0].unknowns.count).map(of_all).collect();
+            let Products { pattern, mass, damping, .. } = &*systems[0].products;
+            pattern.sum_of_products([mass, damping], &motion)
+        }
     };
-    settled.into_iter().enumerate().map(complete).collect()
+    for (k, free_field) in free_fields.iter().enumerate() {
+        let forces = match (steppers[k].law, free_field) {
+            (Law::Static { dt }, _) => systems[k].load(old[k].time + dt),
+            (Law::Dynamic(dynamic), Ok(free_field)) => dynamic.forces(systems[k], old[k], free_field),
+            (Law::Dynamic(_), Err(_)) => continue,
+        };
+        x.iter_mut().zip(&forces).for_each(|(x, force)| x[k] += force);
+    }
+    x
+}
+
+fn with_forms<const K: usize>(
+    system: &System,
+    old: &[&State],
+    steps: Vec<Result<Step, Unsettled>>,
+) -> Vec<Result<Step, Unsettled>> {
+    let pairs: Vec<Option<(&State, &State)>> =
+        steps.iter().zip(old).map(|(step, old)| step.as_ref().ok().map(|step| (*old, &step.state))).collect();
+    let forms = Forms::of_all::<K>(system, &pairs);
+    steps.into_iter().zip(forms).map(|(step, forms)| Ok(Step { forms, ..step? })).collect()
 }

@@ -10,6 +10,7 @@ mod panels;
 pub mod sweeps;
 pub mod upper;
 pub mod vector;
+mod widest;
 
 pub use factor::{Factor, NotPositiveDefinite, Symbolic, UnreliablePivot};
 pub use lanczos::{Mode, smallest_modes};
@@ -18,6 +19,30 @@ pub use orders::Orders;
 pub use upper::Upper;
 
 use sprs::CsMat;
+
+/// Several vectors at once: row i holds the entries of unknown i.
+pub type Lanes<const K: usize> = [[f64; K]];
+
+/// Calls a function of the number of lanes that is known when compiling, enough for `count` vectors.
+///
+/// # Panics
+/// If there are more than [`MOST_LANES`].
+macro_rules! with_lanes_for {
+    ($count:expr, $f:ident($($argument:expr),*)) => {
+        match $count {
+            1 => $f::<1>($($argument),*),
+            2 => $f::<2>($($argument),*),
+            3 | 4 => $f::<4>($($argument),*),
+            count => {
+                assert!(count <= $crate::sparse::MOST_LANES, "{count} vectors are too many for one call");
+                $f::<{ $crate::sparse::MOST_LANES }>($($argument),*)
+            }
+        }
+    };
+}
+pub(crate) use with_lanes_for;
+
+pub const MOST_LANES: usize = 8;
 
 /// A x.
 ///

@@ -7,8 +7,9 @@
 
 use std::ops::Range;
 
-use super::Factor;
 use super::panels::{BLOCK, Panels, blocks};
+use super::widest::{Kernel, on_widest};
+use super::{Factor, Lanes};
 
 /// Calls a function of the block size that is known when compiling.
 macro_rules! of_size {
@@ -25,9 +26,6 @@ macro_rules! of_size {
         }
     };
 }
-
-/// Several right-hand sides at once: row i holds the entries of unknown i.
-pub type Lanes<const K: usize> = [[f64; K]];
 
 impl Factor {
     /// x <- L^-1 x.
@@ -72,13 +70,14 @@ impl Factor {
 
     fn sweep_forward<const K: usize>(&self, supernodes: Range<usize>, x: &mut Lanes<K>) {
         assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
-        with_widest_vectors(Sweep::Forward, &self.panels, &self.forward, supernodes, x);
+        on_widest(Sweep { direction: Direction::Forward, panels: &self.panels, l: &self.forward, supernodes, x });
     }
 
     fn sweep_backward<const K: usize>(&self, supernodes: Range<usize>, x: &mut Lanes<K>) {
         assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
         let behind = self.panels.entries(supernodes.end..self.panels.count());
-        with_widest_vectors(Sweep::Backward, &self.panels, &self.backward[behind..], supernodes, x);
+        let l = &self.backward[behind..];
+        on_widest(Sweep { direction: Direction::Backward, panels: &self.panels, l, supernodes, x });
     }
 }
 
@@ -86,48 +85,29 @@ fn one_lane(x: &mut [f64]) -> &mut Lanes<1> {
     x.as_chunks_mut().0
 }
 
-#[derive(Clone, Copy)]
-enum Sweep {
+enum Direction {
     Forward,
     Backward,
 }
 
-/// Over some first supernodes, with the widest vector registers that this processor has. Additions and products are
-/// those of the plain loop in the same order, so the digits are the same on all.
-fn with_widest_vectors<const K: usize>(
-    sweep: Sweep,
-    panels: &Panels,
-    l: &[f64],
+/// Over some first supernodes.
+struct Sweep<'a, const K: usize> {
+    direction: Direction,
+    panels: &'a Panels,
+    l: &'a [f64],
     supernodes: Range<usize>,
-    x: &mut Lanes<K>,
-) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx512f")]
-        fn avx512<const K: usize>(s: Sweep, panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
-            plain(s, panels, l, supernodes, x);
-        }
-        #[target_feature(enable = "avx2")]
-        fn avx2<const K: usize>(s: Sweep, panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
-            plain(s, panels, l, supernodes, x);
-        }
-        if is_x86_feature_detected!("avx512f") {
-            // SAFETY: the processor has just said that it can.
-            return unsafe { avx512(sweep, panels, l, supernodes, x) };
-        }
-        if is_x86_feature_detected!("avx2") {
-            // SAFETY: likewise.
-            return unsafe { avx2(sweep, panels, l, supernodes, x) };
-        }
-    }
-    plain(sweep, panels, l, supernodes, x);
+    x: &'a mut Lanes<K>,
 }
 
-#[inline(always)]
-fn plain<const K: usize>(sweep: Sweep, panels: &Panels, l: &[f64], supernodes: Range<usize>, x: &mut Lanes<K>) {
-    match sweep {
-        Sweep::Forward => forward(panels, l, supernodes, x),
-        Sweep::Backward => backward(panels, l, supernodes, x),
+impl<const K: usize> Kernel for Sweep<'_, K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        match self.direction {
+            Direction::Forward => forward(self.panels, self.l, self.supernodes, self.x),
+            Direction::Backward => backward(self.panels, self.l, self.supernodes, self.x),
+        }
     }
 }
 

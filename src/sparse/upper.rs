@@ -1,5 +1,6 @@
 //! Products with several symmetric matrices on one pattern, reading each entry of their upper triangles once.
 
+use super::widest::{Kernel, on_widest};
 use sprs::CsMat;
 
 /// The upper triangle of a pattern, row by row, the diagonal first.
@@ -29,40 +30,84 @@ impl Upper {
         rows.flat_map(|(i, row)| row.iter().filter(|(j, _)| *j >= i).map(|(_, &a)| a).collect::<Vec<_>>()).collect()
     }
 
-    /// A x + B y, of each unknown's pair (x, y).
-    pub fn sum_of_products(&self, [a, b]: [&[f64]; 2], xy: &[[f64; 2]]) -> Vec<f64> {
-        let mut sums = vec![0.; xy.len()];
-        for (i, &[x_i, y_i]) in xy.iter().enumerate() {
-            let row = self.start[i]..self.start[i + 1];
-            let entries = self.columns[row.clone()].iter().zip(&a[row.clone()]).zip(&b[row.clone()]);
-            let mut sum = a[row.start] * x_i + b[row.start] * y_i;
+    /// A x + B y, of each unknown's (x, y), for each of K such pairs of vectors.
+    pub fn sum_of_products<const K: usize>(&self, [a, b]: [&[f64]; 2], xy: &[[[f64; K]; 2]]) -> Vec<[f64; K]> {
+        on_widest(SumOfProducts { pattern: self, a, b, xy })
+    }
+
+    /// x'A x, y'B y and z'C z, of each unknown's (x, y, z), for each of K such triples of vectors.
+    pub fn quadratic_forms<const K: usize>(&self, matrices: [&[f64]; 3], xyz: &[[[f64; K]; 3]]) -> [[f64; K]; 3] {
+        on_widest(QuadraticForms { pattern: self, matrices, xyz })
+    }
+
+    /// Where a row has its entries; the first is the diagonal one.
+    #[inline(always)]
+    fn row(&self, i: usize) -> std::ops::Range<usize> {
+        self.start[i]..self.start[i + 1]
+    }
+}
+
+struct SumOfProducts<'a, const K: usize> {
+    pattern: &'a Upper,
+    a: &'a [f64],
+    b: &'a [f64],
+    xy: &'a [[[f64; K]; 2]],
+}
+
+impl<const K: usize> Kernel for SumOfProducts<'_, K> {
+    type Output = Vec<[f64; K]>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<[f64; K]> {
+        let SumOfProducts { pattern, a, b, xy } = self;
+        let mut sums = vec![[0.; K]; xy.len()];
+        for (i, [x_i, y_i]) in xy.iter().enumerate() {
+            let row = pattern.row(i);
+            let entries = pattern.columns[row.clone()].iter().zip(&a[row.clone()]).zip(&b[row.clone()]);
+            let mut sum: [f64; K] = std::array::from_fn(|k| a[row.start] * x_i[k] + b[row.start] * y_i[k]);
             for ((&j, a), b) in entries.skip(1) {
-                let [x_j, y_j] = xy[j as usize];
-                sum += a * x_j + b * y_j;
-                sums[j as usize] += a * x_i + b * y_i;
+                let ([x_j, y_j], below) = (&xy[j as usize], &mut sums[j as usize]);
+                for k in 0..K {
+                    sum[k] += a * x_j[k] + b * y_j[k];
+                    below[k] += a * x_i[k] + b * y_i[k];
+                }
             }
-            sums[i] += sum;
+            (0..K).for_each(|k| sums[i][k] += sum[k]);
         }
         sums
     }
+}
 
-    /// x'A x, y'B y and z'C z, of each unknown's (x, y, z).
-    pub fn quadratic_forms(&self, [a, b, c]: [&[f64]; 3], xyz: &[[f64; 3]]) -> [f64; 3] {
-        let mut forms = [0.; 3];
+struct QuadraticForms<'a, const K: usize> {
+    pattern: &'a Upper,
+    matrices: [&'a [f64]; 3],
+    xyz: &'a [[[f64; K]; 3]],
+}
+
+impl<const K: usize> Kernel for QuadraticForms<'_, K> {
+    type Output = [[f64; K]; 3];
+
+    #[inline(always)]
+    fn run(self) -> [[f64; K]; 3] {
+        let QuadraticForms { pattern, matrices: [a, b, c], xyz } = self;
+        let mut forms = [[0.; K]; 3];
         for (i, here) in xyz.iter().enumerate() {
-            let row = self.start[i]..self.start[i + 1];
-            let entries =
-                self.columns[row.clone()].iter().zip(&a[row.clone()]).zip(&b[row.clone()]).zip(&c[row.clone()]);
-            let mut right = [0.; 3];
+            let row = pattern.row(i);
+            let columns = pattern.columns[row.clone()].iter();
+            let entries = columns.zip(&a[row.clone()]).zip(&b[row.clone()]).zip(&c[row.clone()]);
+            let mut right = [[0.; K]; 3];
             for (((&j, a), b), c) in entries.skip(1) {
-                let there = xyz[j as usize];
-                right[0] += a * there[0];
-                right[1] += b * there[1];
-                right[2] += c * there[2];
+                let [x, y, z] = &xyz[j as usize];
+                for k in 0..K {
+                    right[0][k] += a * x[k];
+                    right[1][k] += b * y[k];
+                    right[2][k] += c * z[k];
+                }
             }
             // Each entry off the diagonal stands for two.
-            for (k, values) in [a, b, c].into_iter().enumerate() {
-                forms[k] += here[k] * (values[row.start] * here[k] + 2. * right[k]);
+            for (m, values) in [a, b, c].into_iter().enumerate() {
+                let diagonal = values[row.start];
+                (0..K).for_each(|k| forms[m][k] += here[m][k] * (diagonal * here[m][k] + 2. * right[m][k]));
             }
         }
         forms
@@ -90,13 +135,20 @@ mod tests {
 
         let mut sum = multiply(&a, &x);
         add(&mut sum, 1., &multiply(&b, &y));
-        let xy: Vec<[f64; 2]> = (0..n).map(|i| [x[i], y[i]]).collect();
-        assert!(distance(&upper.sum_of_products([&va, &vb], &xy), &sum) < ROUND_OFF);
+        // The second lane holds twice the first.
+        let twice = |x: f64| [x, 2. * x];
+        let xy: Vec<[[f64; 2]; 2]> = (0..n).map(|i| [x[i], y[i]].map(twice)).collect();
+        let products = upper.sum_of_products([&va, &vb], &xy);
+        for (lane, factor) in [(0, 1.), (1, 0.5)] {
+            let product: Vec<f64> = products.iter().map(|p| factor * p[lane]).collect();
+            assert!(distance(&product, &sum) < ROUND_OFF);
+        }
 
-        let xyz: Vec<[f64; 3]> = (0..n).map(|i| [x[i], y[i], z[i]]).collect();
+        let xyz: Vec<[[f64; 2]; 3]> = (0..n).map(|i| [x[i], y[i], z[i]].map(twice)).collect();
         let forms = upper.quadratic_forms([&va, &vb, &vc], &xyz);
         for (form, (m, v)) in forms.iter().zip([(&a, &x), (&b, &y), (&c, &z)]) {
-            assert!((form - dot(v, &multiply(m, v))).abs() < ROUND_OFF * dot(v, v) * 10. * 10.);
+            assert!((form[0] - dot(v, &multiply(m, v))).abs() < ROUND_OFF * dot(v, v) * 10. * 10.);
+            assert_eq!(form[1], 4. * form[0]);
         }
     }
 }

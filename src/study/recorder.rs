@@ -93,7 +93,7 @@ impl<'a> Recorder<'a> {
         self.contact.cut_steps += usize::from(steps.len() > 1);
         let mut state = old;
         for step in steps {
-            self.ledger = self.ledger.after(system, &state, &step.state);
+            self.ledger = self.ledger.after(system, &state, &step.state, step.forms);
             let jumps = system.jumps(&step.state.q);
             self.contact = self.contact.after(&system.interface, &state, &step.state, jumps);
             self.iterations += step.iterations;

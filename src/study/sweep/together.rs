@@ -75,7 +75,6 @@ struct Running<'a> {
     run: &'a Ready,
     march: March<'a>,
     recorder: Recorder<'a>,
-    state: State,
     folder: &'a Folder,
 }
 
@@ -84,34 +83,34 @@ fn march_together(runs: &[Ready], lead: &March, frames: bool, started: Instant) 
     let folders: Vec<Folder> =
         runs.iter().map(|r| Folder::prepare(&r.job.folder, &r.job.variant.name)).collect::<Result<_>>()?;
     let mut errors = Vec::new();
-    let mut running = Vec::new();
+    let (mut running, mut states) = (Vec::new(), Vec::new());
     for (run, folder) in runs.iter().zip(&folders) {
         match ready_to_march(&run.prepared, run.rest.clone(), Some(lead)) {
             Err(error) => errors.push((run.job.variant.name.clone(), error)),
             Ok((state, origin, march)) => {
                 let recorder = Recorder::start(&run.prepared, folder, &state, origin, frames)?;
-                running.push(Running { run, march, recorder, state, folder });
+                running.push(Running { run, march, recorder, folder });
+                states.push(state);
             }
         }
     }
     let steps = runs.first().map_or(0, |r| r.prepared.model.time.steps);
     for number in 1..=steps {
         if interrupted() {
-            for run in running {
-                let sentence = format!("interrupted at t = {} s, after step {} of {steps}", run.state.time, number - 1);
+            for (run, state) in running.into_iter().zip(states) {
+                let sentence = format!("interrupted at t = {} s, after step {} of {steps}", state.time, number - 1);
                 errors.push((run.run.job.variant.name.clone(), Error::Interrupted(sentence)));
                 run.finish(Ending::Interrupted, started)?;
             }
             return Ok(errors);
         }
-        let states: Vec<State> = running.iter().map(|r| r.state.clone()).collect();
         let mut marches: Vec<&mut March> = running.iter_mut().map(|r| &mut r.march).collect();
         let advanced = March::advance_together(&mut marches, &states.iter().collect::<Vec<_>>());
-        let mut going_on = Vec::new();
+        let (mut going_on, mut next) = (Vec::new(), Vec::new());
         for ((mut run, steps), old) in running.into_iter().zip(advanced).zip(states) {
             match steps {
                 Ok(steps) => {
-                    run.state = run.recorder.record(number, old, steps)?;
+                    next.push(run.recorder.record(number, old, steps)?);
                     going_on.push(run);
                 }
                 Err(why) => {
@@ -121,7 +120,10 @@ fn march_together(runs: &[Ready], lead: &March, frames: bool, started: Instant) 
                 }
             }
         }
-        running = going_on;
+        (running, states) = (going_on, next);
+        if running.is_empty() {
+            return Ok(errors);
+        }
     }
     for run in running {
         let folder = run.folder;
