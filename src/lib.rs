@@ -14,5 +14,6 @@ pub mod results;
 pub mod solve;
 pub mod sparse;
 pub mod study;
+mod threads;
 
 pub use error::{Error, Result};

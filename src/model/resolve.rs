@@ -16,6 +16,7 @@ use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
 use crate::physics::shape::Shape;
+use crate::threads::both;
 use crate::{Error, Result};
 use std::collections::{BTreeSet, HashSet};
 
@@ -105,8 +106,9 @@ impl Model {
         let interfaces = seams(case, mesh, &mut warnings);
         let bodies: BTreeSet<String> = interfaces.iter().map(|seam| seam.body.clone()).collect();
         let seams = if bonded { vec![] } else { interfaces };
-        quality::refuse_folded(mesh)?;
-        let opened = split::open(mesh, &seams)?;
+        let (folded, opened) = both(|| quality::refuse_folded(mesh), || split::open(mesh, &seams));
+        folded?;
+        let opened = opened?;
         let mesh = opened.mesh;
         let laws = opened
             .joints

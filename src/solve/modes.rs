@@ -1,7 +1,7 @@
 //! Natural frequencies with the interfaces closed and sticking, and Rayleigh's alpha and beta from two of them.
 
 use super::system::{Rayleigh, System, combine};
-use crate::sparse::{Symbolic, smallest_modes};
+use crate::sparse::{Symbolic, UnreliablePivot, smallest_modes};
 use crate::{Error, Result};
 use sprs::CsMat;
 use std::f64::consts::PI;
@@ -25,34 +25,49 @@ pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Resu
     let factor = symbolic
         .factor(&combine(&[(1., &stiffness), (shift, &system.mass)]))
         .map_err(|e| Error::input(format!("the stiffness matrix is not positive definite at unknown {}", e.unknown)))?;
-    let modes = smallest_modes(&factor, shift, &system.mass, count)?;
-    let lambdas: Vec<f64> = modes.iter().map(|m| m.lambda).collect();
-    refuse_gaps(symbolic, &stiffness, &system.mass, &lambdas, shift)?;
+    let below = |sigma: f64| symbolic.negative_pivots(&combine(&[(1., &stiffness), (-sigma, &system.mass)]));
+    let mut complete = false;
+    let modes = smallest_modes(&factor, shift, &system.mass, count, |lambdas| {
+        complete = are_complete(below, lambdas, shift);
+        complete
+    })?;
+    drop(factor);
+    if !complete {
+        refuse_gaps(below, &modes.iter().map(|m| m.lambda).collect::<Vec<_>>(), shift)?;
+    }
     // Below that an eigenvalue is the round-off of a rigid motion's zero.
     let frequency = |lambda: f64| if lambda < 1e-3 * shift { 0. } else { lambda.sqrt() / (2. * PI) };
     Ok(modes.into_iter().map(|m| NaturalMode { frequency: frequency(m.lambda), shape: m.shape }).collect())
 }
 
+/// How many eigenvalues lie below sigma, of which `lambdas` are some.
+type Below = std::result::Result<usize, UnreliablePivot>;
+
+/// Whether none is missing but perhaps a second one within [`NEAREST`] of the last; false if that cannot be told.
+fn are_complete(below: impl Fn(f64) -> Below, lambdas: &[f64], shift: f64) -> bool {
+    let Some(&last) = lambdas.last().filter(|&&l| l > shift) else { return false };
+    let sigma = last * (1. - NEAREST);
+    below(sigma).is_ok_and(|count| count == found_below(lambdas, sigma))
+}
+
+fn found_below(lambdas: &[f64], sigma: f64) -> usize {
+    lambdas.iter().filter(|&&l| l < sigma).count()
+}
+
 /// Compares the found eigenvalues below the last one with their true number, the negative pivots of K - sigma M.
-fn refuse_gaps(
-    symbolic: &Symbolic,
-    stiffness: &CsMat<f64>,
-    mass: &CsMat<f64>,
-    lambdas: &[f64],
-    shift: f64,
-) -> Result<()> {
+fn refuse_gaps(below: impl Fn(f64) -> Below, lambdas: &[f64], shift: f64) -> Result<()> {
     let Some(&last) = lambdas.last().filter(|&&l| l > shift) else { return Ok(()) };
     // sigma just below the last eigenvalue. Pivots vanish where a part that is eliminated early has the eigenvalue too, as
     // half of a free column has, held in the middle; and in a slender body round-off may move the last one itself below
     // sigma. In both cases sigma goes further below.
     let mut mismatch = None;
-    for below in [1e-8, 5e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 1e-1] {
-        if below > ROUND_OFF && mismatch.is_some() {
+    for distance in [NEAREST, 5e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 1e-1] {
+        if distance > ROUND_OFF && mismatch.is_some() {
             break;
         }
-        let sigma = last * (1. - below);
-        if let Ok(count) = symbolic.negative_pivots(&combine(&[(1., stiffness), (-sigma, mass)])) {
-            let found = lambdas.iter().filter(|&&l| l < sigma).count();
+        let sigma = last * (1. - distance);
+        if let Ok(count) = below(sigma) {
+            let found = found_below(lambdas, sigma);
             if count == found {
                 return Ok(());
             }
@@ -65,6 +80,9 @@ fn refuse_gaps(
     let uncounted = "the number of natural modes could not be counted: every shift meets a zero pivot";
     Err(Error::NoConvergence(mismatch.unwrap_or_else(|| uncounted.into())))
 }
+
+/// Distance of sigma from the last eigenvalue, relative to it, where it is taken first.
+const NEAREST: f64 = 1e-8;
 
 /// Share of an eigenvalue that round-off may take from it: 1e-16 times the ratio of K's largest to it, for slender bodies.
 const ROUND_OFF: f64 = 1e-5;

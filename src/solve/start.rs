@@ -97,6 +97,6 @@ pub fn with_acceleration(
     }
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
     add(&mut a[system.unknowns.first_jump..], -1., &joint_forces);
-    symbolic.factor(&system.mass)?.solve(&mut a);
+    symbolic.solve_once(&system.mass, &mut a)?;
     Ok(State { a, free_field, ..state })
 }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Mat, Par};
+use faer::{Conj, Mat, MatMut, Par};
 use sprs::CsMat;
 
 use super::panels::Panels;
+use crate::threads::both;
 
 /// Where the factor of a pattern has its entries. Unknowns are eliminated in the order in which they are numbered.
 pub struct Symbolic {
@@ -105,6 +106,32 @@ impl Symbolic {
     /// # Panics
     /// If the pattern of `a` is not the analysed one.
     pub fn factor(&self, a: &CsMat<f64>) -> Result<Factor, NotPositiveDefinite> {
+        let values = self.values(a)?;
+        let (forward, backward) = both(|| self.panels.pack_forward(&values), || self.panels.pack_backward(&values));
+        Ok(Factor { panels: self.panels.clone(), forward, backward })
+    }
+
+    /// x <- A^-1 x, for a matrix that is solved with once: packing its factor would take longer than it saves.
+    ///
+    /// # Errors
+    /// Names the first unknown whose pivot is not positive.
+    ///
+    /// # Panics
+    /// If the pattern of `a` is not the analysed one, or `x` has another length.
+    pub fn solve_once(&self, a: &CsMat<f64>, x: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+        let values = self.values(a)?;
+        let scratch = self.supernodes.solve_in_place_scratch::<f64>(1, Par::Seq);
+        supernodal::SupernodalLltRef::new(&self.supernodes, &values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(x, self.start.len() - 1, 1),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+        );
+        Ok(())
+    }
+
+    /// L of A = L L^T as faer stores it.
+    fn values(&self, a: &CsMat<f64>) -> Result<Vec<f64>, NotPositiveDefinite> {
         let scratch = supernodal::factorize_supernodal_numeric_llt_scratch::<usize, f64>(
             &self.supernodes,
             Par::Seq,
@@ -123,11 +150,7 @@ impl Symbolic {
         .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
             NotPositiveDefinite { unknown: index }
         })?;
-        Ok(Factor {
-            panels: self.panels.clone(),
-            forward: self.panels.pack_forward(&values),
-            backward: self.panels.pack_backward(&values),
-        })
+        Ok(values)
     }
 
     /// Number of negative eigenvalues of A, counted on D of A = L D L^T (Sylvester). For A = K - sigma M it is the
@@ -254,6 +277,19 @@ mod tests {
 
     fn as_nalgebra(a: &Mat<f64>) -> DMatrix<f64> {
         DMatrix::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)])
+    }
+
+    /// Round-off of a well conditioned matrix.
+    #[test]
+    fn solving_once_gives_what_the_packed_factor_gives() {
+        let a = grid_matrix(12, 9, &[3, 40]);
+        let symbolic = Symbolic::bordered(&a, a.rows() - 4);
+        let (mut once, mut packed) = (random(a.rows(), 5), random(a.rows(), 5));
+        symbolic.solve_once(&a, &mut once).expect("positive definite");
+        symbolic.factor(&a).expect("positive definite").solve(&mut packed);
+        assert!(distance(&once, &packed) < 1e-13);
+        let indefinite = a.map(|v| -v);
+        assert_eq!(symbolic.solve_once(&indefinite, &mut once), Err(NotPositiveDefinite { unknown: 0 }));
     }
 
     /// a - sigma

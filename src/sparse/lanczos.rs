@@ -30,14 +30,21 @@ const RESTARTS: usize = 20;
 /// `factor` is that of K + shift M, and M is positive definite.
 ///
 /// One Krylov space holds one vector of a multiple eigenvalue only. Further ones are searched in the complement of all
-/// that was found, from another start, until nothing below the last wanted eigenvalue turns up there.
+/// that was found, from another start, until nothing below the last wanted eigenvalue turns up there; unless
+/// `are_lowest` knows of the eigenvalues found that none below the last one is missing.
 ///
 /// # Errors
 /// If the pairs do not converge: M is not positive definite, or K + shift M almost singular.
 ///
 /// # Panics
 /// If `m` and `factor` differ in size.
-pub fn smallest_modes(factor: &Factor, shift: f64, m: &CsMat<f64>, count: usize) -> Result<Vec<Mode>> {
+pub fn smallest_modes(
+    factor: &Factor,
+    shift: f64,
+    m: &CsMat<f64>,
+    count: usize,
+    mut are_lowest: impl FnMut(&[f64]) -> bool,
+) -> Result<Vec<Mode>> {
     assert_eq!(factor.len(), m.rows(), "unknowns of the factor and of M");
     let pencil = Pencil { factor, shift, m };
     let count = count.min(m.rows());
@@ -49,7 +56,8 @@ pub fn smallest_modes(factor: &Factor, shift: f64, m: &CsMat<f64>, count: usize)
         let nothing_below = last.is_some_and(|l| new[0].lambda >= l - TOLERANCE * pencil.scale(l));
         found.extend(new);
         found.sort_by(|a, b| a.lambda.total_cmp(&b.lambda));
-        if nothing_below {
+        let lambdas: Vec<f64> = found.iter().map(|mode| mode.lambda).collect();
+        if nothing_below || lambdas.get(..count).is_some_and(&mut are_lowest) {
             break;
         }
     }
@@ -109,18 +117,20 @@ impl Pencil<'_> {
         let dimension = self.m.rows() - known.len();
         let longest = dimension.min(3 * wanted + 60);
         self.orthogonalise(&mut start, known, &[]);
-        let mut beta = self.norm(&start);
+        let mut mass_times_start = self.mass_times(&start);
+        let mut beta = dot(&start, &mass_times_start).sqrt();
         let (mut basis, mut diagonal, mut below) = (Vec::new(), Vec::new(), Vec::new());
         loop {
             if !(beta > 0.0 && beta.is_finite()) {
                 return Err(no_convergence("a vector has no length in the inner product of M"));
             }
-            start.iter_mut().for_each(|x| *x /= beta);
+            start.iter_mut().chain(&mut mass_times_start).for_each(|x| *x /= beta);
             basis.push(start);
-            let q = &basis[basis.len() - 1];
-            start = self.apply(q);
+            start = mass_times_start;
+            self.factor.solve(&mut start);
             diagonal.push(self.orthogonalise(&mut start, known, &basis));
-            beta = self.norm(&start);
+            mass_times_start = self.mass_times(&start);
+            beta = dot(&start, &mass_times_start).sqrt();
             below.push(beta);
 
             let length = basis.len();
@@ -280,7 +290,7 @@ mod tests {
         let mut shifted = k.clone();
         shifted.data_mut().iter_mut().zip(m.data()).for_each(|(k, m)| *k += shift * m);
         let factor = Symbolic::new(k).factor(&shifted).expect("positive definite");
-        let modes = smallest_modes(&factor, shift, m, count).expect("converges");
+        let modes = smallest_modes(&factor, shift, m, count, |_| false).expect("converges");
         assert_eq!(modes.len(), count.min(k.rows()));
         for (i, (mode, &lambda)) in modes.iter().zip(lambdas).enumerate() {
             // The promised 1e-10, and the round-off of the dense eigenvalues.
@@ -340,6 +350,21 @@ mod tests {
         (1..=8).for_each(|count| check(&k, &m, 0.0, count, &lambdas));
     }
 
+    #[test]
+    fn further_vectors_of_an_eigenvalue_are_searched_unless_none_is_known_to_be_missing() {
+        let mut k = TriMat::new((5, 5));
+        [1.0, 1.0, 2.0, 3.0, 4.0].iter().enumerate().for_each(|(i, &lambda)| k.add_triplet(i, i, lambda));
+        let k: CsMat<f64> = k.to_csr();
+        let mut m = k.clone();
+        m.data_mut().fill(1.0);
+        let factor = Symbolic::new(&k).factor(&k).expect("positive definite");
+        let lambdas = |known: bool| -> Vec<f64> {
+            let modes = smallest_modes(&factor, 0.0, &m, 3, |_| known).expect("converges");
+            modes.iter().map(|mode| (mode.lambda * 1e6).round() / 1e6).collect()
+        };
+        assert_eq!((lambdas(true), lambdas(false)), (vec![1.0, 2.0, 3.0], vec![1.0, 1.0, 2.0]));
+    }
+
     /// A chain of n equal masses and springs, free at both ends: lambda_j = 4 sin^2(pi j / 2n), rigid motion included.
     #[test]
     fn free_chain_has_its_rigid_motion_with_a_shift() {
@@ -364,6 +389,6 @@ mod tests {
         let factor = Symbolic::new(&k).factor(&k).expect("positive definite");
         let mut m = lumped_mass(&k);
         m.data_mut().iter_mut().for_each(|value| *value *= f64::NAN);
-        assert!(matches!(smallest_modes(&factor, 0.0, &m, 2), Err(Error::NoConvergence(_))));
+        assert!(matches!(smallest_modes(&factor, 0.0, &m, 2, |_| false), Err(Error::NoConvergence(_))));
     }
 }

@@ -18,6 +18,7 @@ use crate::solve::start;
 use crate::solve::step::{Scheme, Stepper};
 use crate::solve::system::{State, System};
 use crate::sparse::{NotPositiveDefinite, Symbolic};
+use crate::threads::both;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -143,31 +144,42 @@ pub(super) fn ready_to_march<'a>(
     like: Option<&March<'a>>,
 ) -> Result<(State, Vec<f64>, March<'a>)> {
     let Prepared { model, system, symbolic, .. } = prepared;
-    let not_definite = |e| prepared.not_definite(e);
-    let (scheme, state, origin) = match model.analysis {
-        Analysis::Static => {
-            let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
-            let start = at_once.step(system, &rest).map_err(|why| unsettled::at_start(prepared, &why))?;
-            (Scheme::Static, start.state, State::at_rest(system).q)
-        }
-        Analysis::Dynamic => {
-            let Initial { displacement, velocity } = &model.initial;
-            let origin = rest.q.clone();
-            let moving = start::with_motion(system, rest, displacement, velocity);
-            let state = start::with_acceleration(system, symbolic, moving, model.start).map_err(not_definite)?;
-            (Scheme::Dynamic(model.integrator), state, origin)
-        }
+    let scheme = match model.analysis {
+        Analysis::Static => Scheme::Static,
+        Analysis::Dynamic => Scheme::Dynamic(model.integrator),
     };
+    let march = || match like {
+        Some(like) => Ok(like.sharing_factor(system)),
+        None => March::new(system, symbolic, scheme, model.time.step, model.newton),
+    };
+    let (start, march) = both(|| at_start(prepared, rest), march);
+    let (state, origin) = start?;
     if !state.is_finite() {
         return Err(Error::input(
             "the state at t = 0 has numbers too large for a computer: check loads, gravity, densities and the initial motion",
         ));
     }
-    let march = match like {
-        Some(like) => like.sharing_factor(system),
-        None => March::new(system, symbolic, scheme, model.time.step, model.newton).map_err(not_definite)?,
-    };
+    let march = march.map_err(|e| prepared.not_definite(e))?;
     Ok((state, origin, march.with_energy_budget(model.time.energy_budget)))
+}
+
+/// The state at t = 0, and the unknowns that displacements are counted from.
+fn at_start(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>)> {
+    let Prepared { model, system, symbolic, .. } = prepared;
+    match model.analysis {
+        Analysis::Static => {
+            let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
+            let start = at_once.step(system, &rest).map_err(|why| unsettled::at_start(prepared, &why))?;
+            Ok((start.state, State::at_rest(system).q))
+        }
+        Analysis::Dynamic => {
+            let Initial { displacement, velocity } = &model.initial;
+            let origin = rest.q.clone();
+            let moving = start::with_motion(system, rest, displacement, velocity);
+            let state = start::with_acceleration(system, symbolic, moving, model.start);
+            Ok((state.map_err(|e| prepared.not_definite(e))?, origin))
+        }
+    }
 }
 
 /// Equilibrium under gravity. Boundaries that let waves out hold the ground in it, and go on to push as they did.
