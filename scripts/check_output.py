@@ -139,6 +139,8 @@ class Histories:
             column = self.header.index(name)
             written, peak = self.values[row, column], self.peaks[column]
             slack = min(last_digit(self.rows[row][column]), 1e-6 * peak) + 1e-15 * peak
+            if found.dtype == np.float32:  # rounded to 24 bits
+                slack += 2.0**-24 * abs(written)
             require(
                 abs(found - written) <= slack,
                 f"at t = {time} s the frame has {name} = {found!r}, but {self.path} has {written!r}",

@@ -2,30 +2,27 @@
 
 use super::sites::Sites;
 use super::stress::{CellStress, Recovery, von_mises};
+use super::vtu;
 use crate::model::resolve::Model;
 use crate::physics::joint::Status;
 use crate::physics::shape::Shape;
 use crate::solve::interface::Interface;
 use crate::solve::system::{State, System};
+use crate::solve::unknowns::Unknowns;
 use crate::{Error, Result};
-use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells, DataSet, IOBuffer, Piece, UnstructuredGridPiece, Version,
-    VertexNumbers, Vtk,
-};
-use vtkio::xml::Compressor;
+use std::sync::Arc;
+use vtkio::model::{Attribute, CellType};
 
 /// Everything of a state that a frame shows, taken out of the solver so that another thread can write it.
 #[derive(Debug, Clone)]
 pub struct Frame {
     /// [s]
     pub time: f64,
-    /// per node [m], [m/s], [m/s^2]; displacement since the equilibrium under gravity
-    pub displacement: Vec<[f64; 2]>,
-    pub velocity: Vec<[f64; 2]>,
-    pub acceleration: Vec<[f64; 2]>,
+    /// the unknowns and their rates: what moves the nodes
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
     pub joints: Vec<JointCell>,
-    /// what stresses come from, the part of gravity in it [m]
-    total_displacement: Vec<[f64; 2]>,
 }
 
 /// A joint element's mean over its points.
@@ -43,15 +40,12 @@ pub struct JointCell {
 }
 
 impl Frame {
-    /// `origin`: the unknowns in equilibrium under gravity.
-    pub fn of(model: &Model, system: &System, state: &State, origin: &[f64]) -> Frame {
-        let moved: Vec<f64> = state.q.iter().zip(origin).map(|(q, o)| q - o).collect();
+    pub fn of(model: &Model, system: &System, state: &State) -> Frame {
         Frame {
             time: state.time,
-            displacement: system.unknowns.at_nodes(&moved),
-            total_displacement: system.unknowns.at_nodes(&state.q),
-            velocity: system.unknowns.at_nodes(&state.v),
-            acceleration: system.unknowns.at_nodes(&state.a),
+            q: state.q.clone(),
+            v: state.v.clone(),
+            a: state.a.clone(),
             joints: joint_cells(&system.interface, model.joints.len(), system.jumps(&state.q), state),
         }
     }
@@ -85,21 +79,22 @@ fn status_number(status: Status) -> i32 {
     }
 }
 
-/// The part of every frame that does not change: points, cells, materials.
+/// The part of every frame that does not change: points, cells, materials, and what makes fields of a state.
 pub struct Grid {
-    points: Vec<f64>,
-    connectivity: Vec<u64>,
-    offsets: Vec<u64>,
-    types: Vec<CellType>,
+    base: vtu::Base,
     /// number of the material, from 1 in the order of [`Model::materials`]; 0 on interfaces
     material: Vec<i32>,
     /// the points, one for each material that meets at a node
     sites: Sites,
     recovery: Recovery,
+    unknowns: Arc<Unknowns>,
+    /// the unknowns that displacements are counted from
+    origin: Vec<f64>,
 }
 
 impl Grid {
-    pub fn new(model: &Model) -> Grid {
+    /// `origin`: the unknowns in equilibrium under gravity.
+    pub fn new(model: &Model, system: &System, origin: &[f64]) -> Grid {
         let sites = Sites::new(model);
         let (mut connectivity, mut offsets, mut types, mut material) = (vec![], vec![], vec![], vec![]);
         let mut push = |nodes: &mut dyn Iterator<Item = usize>, shape: Shape, number: i32| {
@@ -115,89 +110,72 @@ impl Grid {
         for joint in &model.joints {
             push(&mut joint.pairs.iter().map(|&p| model.pairs[p].ground), joint.shape, 0);
         }
-        let points = sites.spread(&model.mesh.points).into_iter().flat_map(|[x, y]| [x, y, 0.]).collect();
-        let recovery = Recovery::new(model, &sites);
-        Grid { points, connectivity, offsets, types, material, sites, recovery }
+        Grid {
+            base: vtu::Base::new(&sites.in_space(&model.mesh.points), &connectivity, &offsets, &types),
+            material,
+            recovery: Recovery::new(model, &sites),
+            sites,
+            unknowns: system.unknowns.clone(),
+            origin: origin.into(),
+        }
     }
 
-    /// The .vtu file of a frame: inline base64, zlib at its quickest.
-    pub fn vtu(&self, frame: &Frame) -> Result<Vec<u8>> {
-        let centres = self.recovery.stresses(&frame.total_displacement);
-        let piece = UnstructuredGridPiece {
-            points: IOBuffer::F64(self.points.clone()),
-            cells: Cells {
-                cell_verts: VertexNumbers::XML {
-                    connectivity: self.connectivity.clone(),
-                    offsets: self.offsets.clone(),
-                },
-                types: self.types.clone(),
-            },
-            data: Attributes { point: self.point_data(frame, &centres), cell: self.cell_data(frame, &centres) },
-        };
-        let vtk = Vtk {
-            version: Version::new_xml(1, 0),
-            title: String::new(),
-            byte_order: ByteOrder::LittleEndian,
-            data: DataSet::UnstructuredGrid { meta: None, pieces: vec![Piece::Inline(Box::new(piece))] },
-            file_path: None,
-        };
-        let mut bytes = Vec::new();
-        vtk.try_into_xml_format(Compressor::ZLib, 1)
-            .map_err(|e| e.to_string())
-            .and_then(|xml| xml.write(&mut bytes).map_err(|e| e.to_string()))
-            .map_err(|e| Error::input(format!("the frame at {} s cannot be written as VTU: {e}", frame.time)))?;
-        Ok(bytes)
+    /// The .vtu file of a frame. Displacement, stress and the interfaces' numbers are in double precision; what has an
+    /// error far above round-off or can be had from them is in single precision: half the bytes and time.
+    pub fn vtu(&self, frame: &Frame) -> Result<String> {
+        // what stresses come from: the part of gravity is in it
+        let total_displacement = self.unknowns.at_nodes(&frame.q);
+        let centres = self.recovery.stresses(&total_displacement);
+        let mut file = vtu::File::new(&self.base);
+        self.add_point_data(&mut file, frame, &self.recovery.nodal_stresses(&total_displacement, &centres));
+        self.add_cell_data(&mut file, &frame.joints, &centres);
+        let why = |e| Error::input(format!("the frame at {} s cannot be written as VTU: {e}", frame.time));
+        file.text().map_err(why)
     }
 
-    /// Recovered stress in single precision, far below its error: seven more numbers a point.
-    fn point_data(&self, frame: &Frame, centres: &[CellStress]) -> Vec<Attribute> {
-        let vector = |name: &str, values: &[[f64; 2]]| {
-            let in_space: Vec<f64> = self.sites.spread(values).into_iter().flat_map(|[x, y]| [x, y, 0.]).collect();
-            Attribute::vectors(name).with_data(in_space)
-        };
-        let recovered = self.recovery.nodal_stresses(&frame.total_displacement, centres);
-        let stress: Vec<f32> = recovered.iter().flat_map(|s| six(*s).map(|x| x as f32)).collect();
-        let von_mises: Vec<f32> = recovered.iter().map(|s| von_mises(*s) as f32).collect();
-        vec![
-            vector("displacement", &frame.displacement),
-            vector("velocity", &frame.velocity),
-            vector("acceleration", &frame.acceleration),
-            Attribute::generic("nodal_stress", 6).with_data(stress),
-            Attribute::scalars("nodal_von_mises", 1).with_data(von_mises),
-        ]
+    fn add_point_data(&self, file: &mut vtu::File, frame: &Frame, stress: &[[f64; 4]]) {
+        let moved: Vec<f64> = frame.q.iter().zip(&self.origin).map(|(q, o)| q - o).collect();
+        let in_space = |q: &[f64]| self.sites.in_space(&self.unknowns.at_nodes(q)).into_flattened();
+        let six: Vec<[f64; 6]> = stress.iter().copied().map(six).collect();
+        let von_mises: Vec<f64> = stress.iter().copied().map(von_mises).collect();
+        file.point(Attribute::vectors("displacement"), &in_space(&moved));
+        file.point(Attribute::vectors("velocity"), &single(&in_space(&frame.v)));
+        file.point(Attribute::vectors("acceleration"), &single(&in_space(&frame.a)));
+        file.point(Attribute::generic("nodal_stress", 6), &single(six.as_flattened()));
+        file.point(Attribute::scalars("nodal_von_mises", 1), &single(&von_mises));
     }
 
     /// Faces first, then interfaces; what only the other kind has is zero.
-    fn cell_data(&self, frame: &Frame, faces: &[CellStress]) -> Vec<Attribute> {
-        let tensor = |name: &str, of: fn(&CellStress) -> [f64; 4]| {
-            let on_lines = std::iter::repeat_n(0., 6 * frame.joints.len());
-            let values: Vec<f64> = faces.iter().flat_map(|f| six(of(f))).chain(on_lines).collect();
-            Attribute::generic(name, 6).with_data(values)
+    fn add_cell_data(&self, file: &mut vtu::File, joints: &[JointCell], faces: &[CellStress]) {
+        let tensor = |of: fn(&CellStress) -> [f64; 4]| -> Vec<f64> {
+            let values: Vec<[f64; 6]> = faces.iter().map(|face| six(of(face))).collect();
+            padded(0, values.into_flattened(), 6 * joints.len())
         };
-        let on_faces = |name: &str, of: fn(&CellStress) -> f64| {
-            let on_lines = std::iter::repeat_n(0., frame.joints.len());
-            let values: Vec<f64> = faces.iter().map(of).chain(on_lines).collect();
-            Attribute::scalars(name, 1).with_data(values)
+        let von_mises = faces.iter().map(|face| von_mises(face.stress)).collect();
+        file.cell(Attribute::generic("stress", 6), &tensor(|face| face.stress));
+        file.cell(Attribute::generic("strain", 6), &single(&tensor(|face| face.strain)));
+        file.cell(Attribute::scalars("von_mises", 1), &single(&padded(0, von_mises, joints.len())));
+        file.cell(Attribute::scalars("material", 1), &self.material);
+        let mut on_lines = |name: &str, of: fn(&JointCell) -> f64| {
+            let values = padded(faces.len(), joints.iter().map(of).collect(), 0);
+            file.cell(Attribute::scalars(name, 1), &values);
         };
-        let on_lines = |name: &str, of: fn(&JointCell) -> f64| {
-            let on_faces = std::iter::repeat_n(0., faces.len());
-            let values: Vec<f64> = on_faces.chain(frame.joints.iter().map(of)).collect();
-            Attribute::scalars(name, 1).with_data(values)
-        };
-        let status: Vec<i32> =
-            std::iter::repeat_n(0, faces.len()).chain(frame.joints.iter().map(|j| j.status)).collect();
-        vec![
-            tensor("stress", |f| f.stress),
-            tensor("strain", |f| f.strain),
-            on_faces("von_mises", |f| von_mises(f.stress)),
-            Attribute::scalars("material", 1).with_data(self.material.clone()),
-            on_lines("gap", |j| j.gap),
-            on_lines("slip", |j| j.slip),
-            on_lines("normal_traction", |j| j.normal_traction),
-            on_lines("shear_traction", |j| j.shear_traction),
-            Attribute::scalars("status", 1).with_data(status),
-        ]
+        on_lines("gap", |joint| joint.gap);
+        on_lines("slip", |joint| joint.slip);
+        on_lines("normal_traction", |joint| joint.normal_traction);
+        on_lines("shear_traction", |joint| joint.shear_traction);
+        let status = padded(faces.len(), joints.iter().map(|joint| joint.status).collect(), 0);
+        file.cell(Attribute::scalars("status", 1), &status);
     }
+}
+
+/// `values` with zeros before and after.
+fn padded<T: Copy + Default>(before: usize, values: Vec<T>, after: usize) -> Vec<T> {
+    [vec![T::default(); before], values, vec![T::default(); after]].concat()
+}
+
+fn single(values: &[f64]) -> Vec<f32> {
+    values.iter().map(|&x| x as f32).collect()
 }
 
 /// ParaView's order of a symmetric tensor: xx, yy, zz, xy, yz, xz.

@@ -10,9 +10,10 @@ use crate::model::ring::RingShape;
 use crate::physics::element::{self, Integral};
 use crate::physics::shape::Shape;
 use nalgebra::{DMatrix, RowDVector, RowVector3, Vector3};
+use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-/// (node, weight of its displacement) [Pa/m]; a node may stand more than once.
+/// (node, weight of its displacement) [Pa/m]
 pub type Weights = Vec<(usize, [f64; 2])>;
 
 /// sigma_theta = row u at a point of an element.
@@ -72,7 +73,12 @@ pub fn at(shape: &RingShape, samples: &[Sample], ray: usize, radius: f64) -> Wei
         let row = &s.row * *weight;
         s.nodes.iter().enumerate().map(move |(i, &n)| (n, [row[2 * i], row[2 * i + 1]])).collect::<Vec<_>>()
     };
-    near.iter().zip((wanted * inverse).iter()).flat_map(of_sample).collect()
+    let mut sum: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    for (node, [x, y]) in near.iter().zip((wanted * inverse).iter()).flat_map(of_sample) {
+        let weight = sum.entry(node).or_default();
+        *weight = [weight[0] + x, weight[1] + y];
+    }
+    sum.into_iter().collect()
 }
 
 /// As many as layers, twice as many with mid-sides, half as many of triangles of three nodes, which scatter.

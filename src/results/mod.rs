@@ -16,3 +16,4 @@ pub mod sites;
 pub mod spectrum;
 pub mod stress;
 pub mod summary;
+pub mod vtu;

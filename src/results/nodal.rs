@@ -15,7 +15,10 @@ type Weights = Vec<(usize, f64)>;
 
 /// For each site the weights of the best points; none where no face is.
 pub struct Nodal {
-    weights: Vec<Weights>,
+    /// of all sites, one after the other
+    weights: Weights,
+    /// where those of each site end
+    ends: Vec<usize>,
 }
 
 /// A face between sites, its best points numbered through all faces.
@@ -43,13 +46,20 @@ impl Nodal {
         let fits = (0..points.len()).map(fit_at).collect();
         let own = faces.iter().map(|face| own_fit(face, best)).collect();
         let all = Fits { faces, around, ends: ends_of_midsides(faces), fits, own };
-        Nodal { weights: points.iter().enumerate().map(|(site, &place)| mean_at(place, all.of(site))).collect() }
+        let mut nodal = Nodal { weights: vec![], ends: vec![] };
+        for (site, &place) in points.iter().enumerate() {
+            nodal.weights.extend(mean_at(place, all.of(site)));
+            nodal.ends.push(nodal.weights.len());
+        }
+        nodal
     }
 
     /// Stress at every site from that at the best points; zero where no face is.
     pub fn at_sites(&self, best: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let plus = |sum: [f64; 4], &(i, w): &(usize, f64)| [0, 1, 2, 3].map(|k| sum[k] + w * best[i][k]);
-        self.weights.iter().map(|weights| weights.iter().fold([0.; 4], plus)).collect()
+        let starts = std::iter::once(&0).chain(&self.ends);
+        let of_sites = starts.zip(&self.ends).map(|(&start, &end)| &self.weights[start..end]);
+        of_sites.map(|weights| weights.iter().fold([0.; 4], plus)).collect()
     }
 }
 

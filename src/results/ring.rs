@@ -171,9 +171,14 @@ impl Ring {
 impl Element {
     /// k (u + beta v) + m (a + alpha v) - loads [N].
     fn force(&self, model: &Model, system: &System, state: &State, Rayleigh { alpha, beta }: Rayleigh) -> DVector<f64> {
-        let [u, v, a] = [&state.q, &state.v, &state.a].map(|x| {
-            DVector::from_iterator(2 * self.nodes.len(), self.nodes.iter().flat_map(|&n| system.unknowns.at_node(x, n)))
-        });
+        // u + beta v and a + alpha v
+        let sum = |x: &[f64], factor: f64| {
+            let at = |&node: &usize| {
+                let ([x, y], [vx, vy]) = (system.unknowns.at_node(x, node), system.unknowns.at_node(&state.v, node));
+                [x + factor * vx, y + factor * vy]
+            };
+            DVector::from_iterator(2 * self.nodes.len(), self.nodes.iter().flat_map(at))
+        };
         let load = |(number, line): &(usize, ElementLoad)| {
             let load = &model.loads[*number];
             match line {
@@ -184,8 +189,9 @@ impl Element {
                 }
             }
         };
-        let inner = &self.stiffness * (u + &v * beta) + &self.mass * (a + v * alpha);
-        self.loads.iter().map(load).fold(inner - &self.weight, |p, load| p - load)
+        let mut force = &self.stiffness * sum(&state.q, beta) - &self.weight;
+        force.gemv(1., &self.mass, &sum(&state.a, alpha), 1.);
+        self.loads.iter().map(load).fold(force, |p, load| p - load)
     }
 
     /// Forces on some of its nodes as a vector of them all.

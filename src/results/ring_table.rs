@@ -5,8 +5,9 @@ use super::ring::Ring;
 use crate::Result;
 use crate::model::resolve::Model;
 use crate::solve::system::{State, System};
+use std::fmt::Write as _;
 use std::fs::File;
-use std::io::Write;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Written in whole lines, so that a kill leaves a table that reads. Only the header if no body is a ring.
@@ -30,8 +31,10 @@ impl RingTable {
             for s in ring.sections(model, system, state, origin) {
                 let forces = [s.normal_force, s.shear_force, s.moment];
                 let numbers = forces.iter().chain(&s.hoop).chain(&s.displacement).chain(&s.traction);
-                let numbers: String = numbers.map(|x| format!(",{x:e}")).collect();
-                self.waiting += &format!("{:e},{},{}{numbers}\n", state.time, ring.body, s.angle.to_degrees());
+                // writing to memory does not fail
+                let _ = write!(self.waiting, "{:e},{},{}", state.time, ring.body, s.angle.to_degrees());
+                numbers.for_each(|x| _ = write!(self.waiting, ",{x:e}"));
+                self.waiting.push('\n');
             }
         }
         let lines = std::mem::take(&mut self.waiting);

@@ -33,9 +33,11 @@ impl Series {
     pub fn start(folder: &Path, name: &str, grid: Grid) -> Result<Series> {
         file::create_folder(&folder.join("frames"))?;
         let target = Target { folder: folder.into(), name: name.into() };
-        target.write_index(&[])?;
+        target.write_index("")?;
         let (sender, receiver) = sync_channel(WAITING);
-        let writer = std::thread::spawn(move || target.write_all(&grid, &receiver));
+        let writer =
+            std::thread::Builder::new().name("frames".into()).spawn(move || target.write_all(&grid, &receiver));
+        let writer = writer.map_err(|e| Error::input(format!("no thread can be started that writes frames: {e}")))?;
         Ok(Series { sender, writer: Some(writer) })
     }
 
@@ -66,16 +68,18 @@ struct Target {
 
 impl Target {
     fn write_all(&self, grid: &Grid, frames: &Receiver<Frame>) -> Result<Written> {
-        let mut times = Vec::new();
-        let mut busy = Duration::ZERO;
+        let mut index = String::new();
+        let mut written = Written::default();
         for frame in frames {
             let start = Instant::now();
-            file::replace(&self.folder.join(self.frame_path(times.len())), &grid.vtu(&frame)?)?;
-            times.push(frame.time);
-            self.write_index(&times)?;
-            busy += start.elapsed();
+            let path = self.frame_path(written.frames);
+            file::replace(&self.folder.join(&path), grid.vtu(&frame)?.as_bytes())?;
+            let (time, path) = (frame.time, escaped(&path));
+            index += &format!("    <DataSet timestep=\"{time:e}\" part=\"0\" file=\"{path}\"/>\n");
+            self.write_index(&index)?;
+            written = Written { frames: written.frames + 1, busy: written.busy + start.elapsed() };
         }
-        Ok(Written { frames: times.len(), busy })
+        Ok(written)
     }
 
     /// Seen from the `.pvd`.
@@ -83,12 +87,8 @@ impl Target {
         format!("frames/{}_{number:05}.vtu", self.name)
     }
 
-    fn write_index(&self, times: &[f64]) -> Result<()> {
-        let frame = |(i, time): (usize, &f64)| {
-            let path = escaped(&self.frame_path(i));
-            format!("    <DataSet timestep=\"{time:e}\" part=\"0\" file=\"{path}\"/>\n")
-        };
-        let frames: String = times.iter().enumerate().map(frame).collect();
+    /// `frames`: their lines.
+    fn write_index(&self, frames: &str) -> Result<()> {
         let index = format!(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  \
              <Collection>\n{frames}  </Collection>\n</VTKFile>\n"

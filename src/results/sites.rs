@@ -38,4 +38,10 @@ impl Sites {
     pub fn spread<T: Copy>(&self, of_nodes: &[T]) -> Vec<T> {
         self.nodes.iter().map(|&node| of_nodes[node]).collect()
     }
+
+    /// Vectors in the plane per node, given to its sites as vectors in space.
+    pub fn in_space(&self, of_nodes: &[[f64; 2]]) -> Vec<[f64; 3]> {
+        let in_space = |&node: &usize| [of_nodes[node][0], of_nodes[node][1], 0.];
+        self.nodes.iter().map(in_space).collect()
+    }
 }

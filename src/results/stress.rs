@@ -7,7 +7,8 @@ use crate::model::resolve::Model;
 use crate::physics::element::{self, Integral, Point};
 use crate::physics::material::Material;
 use crate::physics::shape::Shape;
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::Vector3;
+use std::ops::Range;
 
 /// Components (xx, yy, zz, xy), tension positive; shear strain as a tensor's, gamma / 2.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,86 +23,108 @@ pub fn von_mises([xx, yy, zz, xy]: [f64; 4]) -> f64 {
     (((xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2)) / 2. + 3. * xy * xy).sqrt()
 }
 
-/// What turns nodal displacements into stresses; made once, used for every frame.
+/// What turns nodal displacements into stresses; made once, used for every frame. Lists in one piece: that is quick.
 pub struct Recovery {
     faces: Vec<Face>,
+    /// of the faces, one after the other
+    nodes: Vec<usize>,
+    /// (dN/dx, dN/dy) of a face's nodes at one place, at the next, of the next face [1/m]
+    gradients: Vec<[f64; 2]>,
     nodal: Nodal,
 }
 
 struct Face {
-    nodes: Vec<usize>,
-    /// B at the centre
-    centre: DMatrix<f64>,
-    /// B at the best points; none where the centre is the only one
-    best: Vec<DMatrix<f64>>,
-    /// of B-bar elements, whose bulk stress follows the mean dilatation
-    mean_dilatation: Option<DMatrix<f64>>,
+    /// where its nodes are listed
+    nodes: Range<usize>,
+    /// where its gradients begin: at the centre, then at the best points, then their mean
+    gradients: usize,
+    /// best points, unless the centre is the only one
+    best_count: usize,
+    /// of B-bar elements the bulk stress follows the mean dilatation
+    b_bar: bool,
     material: Material,
 }
 
 impl Recovery {
     pub fn new(model: &Model, sites: &Sites) -> Recovery {
         let (mut faces, mut patches, mut places) = (vec![], vec![], vec![]);
+        let (mut nodes, mut gradients) = (vec![], vec![]);
         for ((cell, material), sites) in model.faces().zip(&sites.faces) {
             let cell = &model.mesh.cells[cell];
             let at: Vec<[f64; 2]> = cell.nodes.iter().map(|&n| model.mesh.points[n]).collect();
-            let best: Vec<Point> =
-                best_points(cell.shape).into_iter().map(|place| element::point(cell.shape, &at, place, 1.)).collect();
-            let numbers = places.len()..places.len() + best.len();
-            patches.push(Patchwork { shape: cell.shape, sites: sites.clone(), best: numbers.collect() });
+            let point = |place: [f64; 2]| element::point(cell.shape, &at, place, 1.);
+            let best: Vec<Point> = best_points(cell.shape).into_iter().map(point).collect();
+            patches.push(Patchwork {
+                shape: cell.shape,
+                sites: sites.clone(),
+                best: (places.len()..places.len() + best.len()).collect(),
+            });
             places.extend(best.iter().map(|p| p.at));
             let b_bar = cell.shape == Shape::Quad4 && model.quad4 == Quad4::BBar;
-            let points = || element::points(cell.shape, &at, Integral::Stiffness);
+            let best_count = if best.len() > 1 { best.len() } else { 0 };
             faces.push(Face {
-                centre: element::point(cell.shape, &at, centre(cell.shape), 1.).b(),
-                best: best.iter().filter(|_| best.len() > 1).map(Point::b).collect(),
-                mean_dilatation: b_bar.then(|| element::mean_dilatation(&points())),
-                nodes: cell.nodes.clone(),
+                nodes: nodes.len()..nodes.len() + at.len(),
+                gradients: gradients.len(),
+                best_count,
+                b_bar,
                 material: *material,
             });
+            nodes.extend(&cell.nodes);
+            gradients.extend(point(centre(cell.shape)).gradient);
+            gradients.extend(best.into_iter().take(best_count).flat_map(|p| p.gradient));
+            if b_bar {
+                let mean = element::mean_dilatation(&element::points(cell.shape, &at, Integral::Stiffness));
+                gradients.extend((0..at.len()).map(|i| [mean[2 * i], mean[2 * i + 1]]));
+            }
         }
         let points = sites.spread(&model.mesh.points);
-        Recovery { faces, nodal: Nodal::new(&patches, &points, &places) }
+        Recovery { faces, nodes, gradients, nodal: Nodal::new(&patches, &points, &places) }
     }
 
     /// epsilon = B u and sigma = D epsilon at the centre of every face, in the order of [`Model::faces`]; `u` per node [m].
     pub fn stresses(&self, u: &[[f64; 2]]) -> Vec<CellStress> {
-        self.faces.iter().map(|face| face.stress(&face.centre, &face.motion(u))).collect()
+        self.faces.iter().map(|face| self.stress(face, 0, u)).collect()
     }
 
     /// sigma = (xx, yy, zz, xy) recovered at every site [Pa]; `centres`: what [`Recovery::stresses`] gave for the same `u`.
     pub fn nodal_stresses(&self, u: &[[f64; 2]], centres: &[CellStress]) -> Vec<[f64; 4]> {
-        let of_face = |(face, centre): (&Face, &CellStress)| match face.best.is_empty() {
-            true => vec![centre.stress],
-            false => face.best_stresses(u),
+        let mut best = Vec::with_capacity(centres.len());
+        for (face, centre) in self.faces.iter().zip(centres) {
+            match face.best_count {
+                0 => best.push(centre.stress),
+                count => best.extend((1..=count).map(|place| self.stress(face, place, u).stress)),
+            }
+        }
+        self.nodal.at_sites(&best)
+    }
+
+    /// `place`: 0 is the centre, from 1 the best points.
+    fn stress(&self, face: &Face, place: usize, u: &[[f64; 2]]) -> CellStress {
+        let [xx, yy, gamma] = self.strain(face, place, u);
+        let dilatation = match face.b_bar {
+            true => {
+                let [xx, yy, _] = self.strain(face, 1 + face.best_count, u);
+                xx + yy
+            }
+            false => xx + yy,
         };
-        self.nodal.at_sites(&self.faces.iter().zip(centres).flat_map(of_face).collect::<Vec<_>>())
-    }
-}
-
-impl Face {
-    /// (u_x, u_y of its node 0, of node 1, ...) [m].
-    fn motion(&self, u: &[[f64; 2]]) -> DVector<f64> {
-        DVector::from_iterator(2 * self.nodes.len(), self.nodes.iter().flat_map(|&n| u[n]))
-    }
-
-    fn best_stresses(&self, u: &[[f64; 2]]) -> Vec<[f64; 4]> {
-        let u = self.motion(u);
-        self.best.iter().map(|b| self.stress(b, &u).stress).collect()
-    }
-
-    fn stress(&self, b: &DMatrix<f64>, u: &DVector<f64>) -> CellStress {
-        let product = b * u;
-        let strain = Vector3::new(product[0], product[1], product[2]);
-        let dilatation = strain[0] + strain[1];
-        let bulk = self.mean_dilatation.as_ref().map_or(dilatation, |b| (b * u)[0]);
-        let mean_stress = self.material.bulk_modulus() * bulk;
-        let deviator = self.material.deviatoric() * strain;
+        let mean_stress = face.material.bulk_modulus() * dilatation;
+        let deviator = face.material.deviatoric() * Vector3::new(xx, yy, gamma);
         let out_of_plane = mean_stress - (deviator[0] + deviator[1]);
         CellStress {
             stress: [deviator[0] + mean_stress, deviator[1] + mean_stress, out_of_plane, deviator[2]],
-            strain: [strain[0], strain[1], 0., strain[2] / 2.],
+            strain: [xx, yy, 0., gamma / 2.],
         }
+    }
+
+    /// (xx, yy, gamma_xy): sums of dN/dx u_x, dN/dy u_y, dN/dy u_x + dN/dx u_y over the nodes.
+    fn strain(&self, face: &Face, place: usize, u: &[[f64; 2]]) -> [f64; 3] {
+        let nodes = &self.nodes[face.nodes.clone()];
+        let gradients = self.gradients[face.gradients + place * nodes.len()..].iter().zip(nodes);
+        gradients.fold([0.; 3], |[xx, yy, gamma], (&[dx, dy], &node)| {
+            let [ux, uy] = u[node];
+            [xx + dx * ux, yy + dy * uy, gamma + dy * ux + dx * uy]
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::results::file;
 use crate::results::folder::{Folder, STATUS};
 use crate::results::frame::{Frame, Grid};
 use crate::results::histories::Histories;
-use crate::results::motion::Motion;
+use crate::results::motion::{Motion, Spans};
 use crate::results::ring::rings;
 use crate::results::ring_table::RingTable;
 use crate::results::series::Series;
@@ -35,6 +35,7 @@ pub struct Recorder<'a> {
     ledger: Ledger,
     contact: ContactRecord,
     motion: Motion,
+    spans: Spans,
     steps: usize,
     iterations: usize,
     started: Instant,
@@ -60,7 +61,8 @@ impl<'a> Recorder<'a> {
         origin: Vec<f64>,
         frames: bool,
     ) -> Result<Recorder<'a>> {
-        let series = || Series::start(folder.path(), folder.name(), Grid::new(&prepared.model));
+        let series =
+            || Series::start(folder.path(), folder.name(), Grid::new(&prepared.model, &prepared.system, &origin));
         let path = folder.file(STATUS);
         let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
         let mut recorder = Recorder {
@@ -75,6 +77,7 @@ impl<'a> Recorder<'a> {
             ledger: Ledger::start(&prepared.system, state),
             contact: ContactRecord::default(),
             motion: Motion::default(),
+            spans: Spans::new(&prepared.model),
             steps: 0,
             iterations: 0,
             started: Instant::now(),
@@ -113,10 +116,10 @@ impl<'a> Recorder<'a> {
 
     fn write_frame(&mut self, state: &State) -> Result<()> {
         self.flush()?;
-        self.motion = self.motion.after(&self.prepared.model, &self.prepared.system, state);
+        self.motion = self.motion.after(&self.spans, &self.prepared.model.mesh, &self.prepared.system, state);
         self.rings.record(&self.prepared.model, &self.prepared.system, state, &self.origin)?;
         let Some(series) = &mut self.series else { return Ok(()) };
-        series.push(Frame::of(&self.prepared.model, &self.prepared.system, state, &self.origin))
+        series.push(Frame::of(&self.prepared.model, &self.prepared.system, state))
     }
 
     fn flush(&mut self) -> Result<()> {
