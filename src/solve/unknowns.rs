@@ -15,13 +15,41 @@ pub struct Unknowns {
     /// the jumps are the unknowns from here on
     pub first_jump: usize,
     /// row of T for dof(node n, axis i) = 2n + i: (unknown, +1 or -1)
-    rows: Vec<Vec<(usize, f64)>>,
+    rows: Rows,
     /// for each pair and axis its jump; none where supports hold both nodes
     pub jumps: Vec<[Option<usize>; 2]>,
     /// (ground, body) of each pair
     pairs: Vec<[usize; 2]>,
     /// the node whose motion, or whose pair's jump, an unknown is: for messages
     nodes: Vec<usize>,
+}
+
+/// Lists of (unknown, sign), one after the other.
+#[derive(Debug, Clone, PartialEq)]
+struct Rows {
+    entries: Vec<(usize, f64)>,
+    /// where each list ends
+    ends: Vec<usize>,
+}
+
+impl Rows {
+    fn of(lists: impl Iterator<Item = Vec<(usize, f64)>>) -> Rows {
+        let mut rows = Rows { entries: vec![], ends: vec![] };
+        for list in lists {
+            rows.entries.extend(list);
+            rows.ends.push(rows.entries.len());
+        }
+        rows
+    }
+
+    fn at(&self, row: usize) -> &[(usize, f64)] {
+        let start = if row == 0 { 0 } else { self.ends[row - 1] };
+        &self.entries[start..self.ends[row]]
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &[(usize, f64)]> {
+        (0..self.ends.len()).map(|row| self.at(row))
+    }
 }
 
 /// A displacement before numbering: sum of signed blocks, a block being a node or, after all nodes, a pair.
@@ -49,11 +77,11 @@ impl Unknowns {
                 owners.push(if block < nodes { block } else { pairs[block - nodes].ground });
             }
         }
-        let row = |node: usize, axis: usize| {
+        let row = |node: usize, axis: usize| -> Vec<(usize, f64)> {
             let numbered = |&(block, sign): &(usize, f64)| number[block][axis].map(|q| (q, sign));
             expressions[axis][node].iter().filter_map(numbered).collect()
         };
-        let rows = (0..nodes).flat_map(|n| [row(n, 0), row(n, 1)]).collect();
+        let rows = Rows::of((0..nodes).flat_map(|n| [row(n, 0), row(n, 1)]));
         let jumps = number.split_off(nodes);
         Ok(Unknowns {
             count: owners.len(),
@@ -67,7 +95,7 @@ impl Unknowns {
 
     /// Row of T: which unknowns move this node along this axis, and with which sign.
     pub fn row(&self, node: usize, axis: usize) -> &[(usize, f64)] {
-        &self.rows[2 * node + axis]
+        self.rows.at(2 * node + axis)
     }
 
     /// u = T q at one node [as q].
@@ -77,7 +105,7 @@ impl Unknowns {
 
     /// u = T q at all nodes.
     pub fn at_nodes(&self, q: &[f64]) -> Vec<[f64; 2]> {
-        (0..self.rows.len() / 2).map(|node| self.at_node(q, node)).collect()
+        (0..self.rows.ends.len() / 2).map(|node| self.at_node(q, node)).collect()
     }
 
     /// q of nodal displacements (or velocities); those of supported nodes do not count.
