@@ -128,7 +128,7 @@ impl Unknowns {
 
     /// The unknowns that move a node along an axis in which `held` does not let it move.
     pub fn freed_from(&self, held: &Unknowns) -> BTreeSet<usize> {
-        let rows = self.rows.iter().zip(&held.rows).filter(|(_, held)| held.is_empty());
+        let rows = self.rows.iter().zip(held.rows.iter()).filter(|(_, held)| held.is_empty());
         rows.flat_map(|(row, _)| row.iter().map(|&(i, _)| i)).collect()
     }
 
