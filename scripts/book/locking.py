@@ -50,5 +50,5 @@ def page(book):
         tables=[("Displacement u(a) [m] on the same divisions", ["element", *(f"nu = {nu}" for nu in RATIOS)], cells)],
         notes="Only B-bar Q4 (`\"elements\": {\"quad4\": \"b_bar\"}`) and Q8 are meant for such ground; the others are shown. The "
               "T3 lie in crossed pairs, which lock little; T3 in general lock as standard Q4 do.",
-        code=["src/physics/element.rs::b_bar_stiffness", "src/physics/element.rs::mean_dilatation", "src/solve/assembly.rs::of_face", "geo/verification/lame.geo"],
+        code=["src/physics/element.rs::b_bar_stiffness", "src/physics/element.rs::mean_dilatation", "src/solve/assembly.rs::stiffness_of_face", "geo/verification/lame.geo"],
     )

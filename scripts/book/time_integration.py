@@ -120,6 +120,6 @@ def page(book):
         rows=rows,
         notes="The phase of a step is read from the history by the two-term recurrence that any such motion satisfies. The "
               "joints' forces are taken at the end of the step also with HHT; this case has none.",
-        code=["src/solve/newmark.rs::Constants", "src/solve/step.rs::right_hand_side", "src/solve/start.rs::with_acceleration"], plot=plot,
+        code=["src/solve/newmark.rs::Constants", "src/solve/step.rs::right_hand_sides", "src/solve/start.rs::with_acceleration"], plot=plot,
         example=(released, "u(1 s) is the last `P1.uy` in histories.csv."),
     )
