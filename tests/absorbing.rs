@@ -373,7 +373,7 @@ fn the_ledgers_boundary_is_the_work_done_on_the_base() {
             before = Some(now);
             let next = match &ledger {
                 None => Ledger::start(&system, state),
-                Some((old, ledger)) => ledger.after(&system, old, state),
+                Some((old, ledger)) => ledger.after(&system, old, state, Forms::of(&system, old, state)),
             };
             last = next.now.boundary;
             ledger = Some((state.clone(), next));
