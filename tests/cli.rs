@@ -461,7 +461,8 @@ fn a_folder_that_holds_other_things_is_refused_and_not_touched() {
     let bench = Bench::new("foreign");
     let there = || {
         let mut names: Vec<_> = std::fs::read_dir(&bench.folder).unwrap().map(|e| e.unwrap().file_name()).collect();
-        names.retain(|n| !n.to_string_lossy().starts_with(".std"));
+        // the second is the mesh's, beside which it may come to stand
+        names.retain(|n| !n.to_string_lossy().starts_with(".std") && n != "block.orders");
         names.sort();
         names
     };

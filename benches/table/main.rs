@@ -4,6 +4,7 @@
 //! `BENCH=full` adds a mesh of a million unknowns; `cargo bench -- NAME` runs the parts whose name holds NAME.
 
 mod case;
+mod cases;
 mod clock;
 mod contact;
 mod faer_solve;
@@ -20,10 +21,11 @@ use table::Row;
 type Part = (&'static str, fn() -> Vec<Row>);
 
 /// In the order of the table.
-const PARTS: [Part; 4] = [
+const PARTS: [Part; 5] = [
     ("sweeps", || [HUNDRED_THOUSAND, FOUR_HUNDRED_THOUSAND].iter().flat_map(sweeps::rows).collect()),
     ("contact", || [DEFAULT, HUNDRED_THOUSAND].iter().flat_map(contact::rows).collect()),
     ("frames", || [DEFAULT, HUNDRED_THOUSAND].iter().flat_map(frames::rows).collect()),
+    ("cases", cases::rows),
     ("growth", || growth::rows(&growing())),
 ];
 
@@ -42,6 +44,10 @@ fn main() {
         .and_then(|()| std::env::set_current_dir(folder))
         .expect("target/ can be written to");
     let parts = PARTS.iter().filter(|(name, _)| wanted.is_empty() || wanted.iter().any(|w| name.contains(w.as_str())));
-    let rows: Vec<Row> = parts.flat_map(|(_, rows)| rows()).collect();
+    let rows = |(name, rows): &Part| {
+        eprintln!("bench: {name}");
+        rows()
+    };
+    let rows: Vec<Row> = parts.flat_map(rows).collect();
     print!("{}", table::text(&rows));
 }

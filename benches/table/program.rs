@@ -28,18 +28,23 @@ impl Finished {
 
 /// `coralpipe run` with the settings `sets`, its results thrown away.
 pub fn run(size: &Size, sets: &[&str], bonded: bool) -> Finished {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_coralpipe"));
-    command.args(["run", CASE, "--quiet", "--out", "run"]);
-    command.args(size.constants().iter().flat_map(|(name, value)| ["--geo".into(), format!("{name}={value}")]));
-    command.args(sets.iter().flat_map(|set| ["--set", set]));
-    command.args(bonded.then_some("--bonded"));
-    let start = Instant::now();
-    let mut child = command.stdout(Stdio::null()).spawn().expect("cargo built the program");
+    let constants: Vec<String> = size.constants().iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let mut arguments = vec!["run", CASE, "--quiet", "--out", "run"];
+    arguments.extend(constants.iter().flat_map(|constant| ["--geo", constant]));
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    arguments.extend(bonded.then_some("--bonded"));
+    let started = Instant::now();
+    let mut child = start(&arguments);
     let memory = watch(&mut child);
-    let wall = start.elapsed().as_secs_f64();
-    assert!(child.wait().is_ok_and(|status| status.success()), "{command:?} failed");
+    let wall = started.elapsed().as_secs_f64();
+    assert!(child.wait().is_ok_and(|status| status.success()), "{arguments:?} failed");
     let text = std::fs::read_to_string("run/summary.json").expect("a run that is done has its summary");
     Finished { summary: serde_json::from_str(&text).expect("summary.json is JSON"), wall, memory }
+}
+
+pub fn start(arguments: &[&str]) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coralpipe"));
+    command.args(arguments).stdout(Stdio::null()).spawn().expect("cargo built the program")
 }
 
 /// Waits for the end; the system's own high-water mark only rises, so its last value counts.
