@@ -180,6 +180,30 @@ fn check_names_the_front_against_the_grounds_waves() {
     }
 }
 
+/// Loads of nothing, loads that come when all is over, and damping that no ground has where the load lives.
+#[test]
+fn check_warns_of_loads_that_never_act_and_of_damping_by_beta_alone() {
+    let bench = Bench::new("never_acts");
+    let warned = |set: &str, words: &str| {
+        let told = bench.run(&["check", "block.json", "--set", set]).stdout;
+        assert!(told.lines().any(|l| l.starts_with("warning") && l.contains(words)), "{set}: no {words} in {told}");
+    };
+    warned("loads.top.pressure.start=1", "\"top\" never acts: it begins at 1 s, and the calculation ends at 0.01 s");
+    warned("loads.top.pressure.scale=0", "\"top\" never acts: it is zero");
+    warned("loads={}", "nothing loads or moves the model");
+    // half of the energy of a triangle of 20 ms lies below 18 Hz: pi f beta = 57 %
+    warned(r#"damping={"alpha":0,"beta":0.01}"#, "half of the energy of the load on top lies");
+    let told = bench.run(&["check", "block.json", "--set", r#"damping={"alpha":0,"beta":0.0005}"#]).stdout;
+    assert!(!told.contains("is that meant"), "{told}");
+    let late = r#"loads.top.pressure={"law":"step","peak":1,"start":"2 ms","front":{"speed":500,"direction":[1,0]}}"#;
+    let told = bench.run(&["check", "block.json", "--set", late]).stdout;
+    // 5 m at 500 m/s, from 2 ms on
+    assert!(
+        told.contains("pressing from 0.002 to 0.012 s on") && told.contains("not reached all of the curve"),
+        "{told}"
+    );
+}
+
 /// The top of a block 3 m wide, in elements of 1 m, pressed by `pressure`.
 fn block(second_order: bool, pressure: Value) -> (Mesh, Value) {
     let mut drawing = support::Drawing::default();

@@ -80,6 +80,11 @@ fn a_box_whose_boundaries_are_not_felt_is_large_enough_and_is_not_computed_twice
     assert_eq!(first.code, Some(0), "{}", first.stderr);
     assert!(first.stdout.contains("large enough: width = 4, height = 6:"), "{}", first.stdout);
     assert!(first.stdout.contains("46.25") && first.stdout.contains("never"), "{}", first.stdout);
+    assert!(first.stdout.contains("nothing scatters it"), "{}", first.stdout);
+    assert!(first.stdout.contains("no constants core_width and core_height"), "{}", first.stdout);
+    // a value for each size: the block of lines begins with the quantity
+    let values = first.stdout.split("P.u [m]\n").nth(1).unwrap().lines().take(4);
+    assert!(values.zip(["4 x 6 ", "6 x 6 ", "4 x 9 ", "6 x 9 "]).all(|(l, size)| l.trim_start().starts_with(size)));
     let study = json(&bench, "output/box/domain/domain.json");
     let sizes = study["sizes"].as_array().unwrap();
     let expected = [[4., 6.], [6., 6.], [4., 9.], [6., 9.]];
@@ -124,7 +129,7 @@ fn peaks_come_with_their_error_and_an_acceleration_under_a_jump_does_not_converg
     assert_eq!(code, Some(0), "{stderr}");
     let line = |name: &str| stdout.lines().find(|l| l.trim_start().starts_with(name)).unwrap().to_string();
     assert!(line("P.uy").contains("+-") && line("P.uy").contains("extrapolated"), "{stdout}");
-    assert!(line("P.ay").contains("does not converge (the load jumps"), "{stdout}");
+    assert!(line("P.ay").contains("does not converge (the load begins with a jump"), "{stdout}");
     let found = &json(&bench, "output/box/converge/converge.json")["quantities"];
     assert_eq!((found["P.uy"]["converges"].as_bool(), found["P.ay"]["converges"].as_bool()), (Some(true), Some(false)));
     // before anything returns the surface moves by the integral of p / (rho c): 100 kPa * 20 ms / 2 / 518.8 kPa s/m
@@ -159,6 +164,8 @@ fn what_a_study_cannot_do_is_refused_with_a_sentence() {
         ("domain box.json --set probes=[]", "nothing to compare"),
         ("converge block.json", "needs a script"),
         ("converge box.json --ratio 1", "--ratio 1: each mesh must be finer"),
+        ("converge box.json --ratio 1.0001", "does not make the mesh finer by 1.0001: its elements measure 0.5 m"),
+        ("converge box.json --refine width", "width = 6 does not make the mesh finer by 1.5"),
         ("converge box.json --refine fine", "no constant \"fine\""),
         ("converge box.json --compare Q.uy", "no probe or pipe \"Q\""),
     ] {
@@ -168,6 +175,22 @@ fn what_a_study_cannot_do_is_refused_with_a_sentence() {
         assert!(sentence.starts_with("coralpipe: ") && sentence.contains(words), "{line}: no {words:?} in: {sentence}");
         assert!(!bench.path("output").exists(), "{line}");
     }
+}
+
+/// The surface's edge moves as the ground grows, and with it the front's t = 0; and a load that comes too late moves nothing.
+#[test]
+fn sizes_that_cannot_be_compared_are_refused() {
+    let Some(gmsh) = gmsh() else { return };
+    let bench = box_bench("front");
+    let front = r#"loads.top.pressure.front={"speed":300,"direction":[1,0]}"#;
+    let Outcome { code, stderr, .. } = run(&bench, &gmsh, &format!("domain box.json --set {front}"));
+    // 2 m wider, so 1 m earlier at 300 m/s
+    assert!(code == Some(1) && stderr.contains("counts t = 0 from its front's arrival"), "{code:?}: {stderr}");
+    assert!(stderr.contains("at 6 x 6 comes 3.333 ms away") && stderr.contains("\"detonation\""), "{stderr}");
+    let late = "domain box.json --set loads.top.pressure.start=1";
+    let Outcome { code, stderr, .. } = run(&bench, &gmsh, late);
+    assert!(code == Some(1) && stderr.contains("nothing that is compared moves"), "{code:?}: {stderr}");
+    assert!(stderr.contains("the load on \"top\" never acts: it begins at 1 s"), "{stderr}");
 }
 
 /// Ctrl-C in the second size: exit code 130, and the first size is done and taken as it is the next time.

@@ -4,7 +4,7 @@ use super::boundary::{Border, border};
 use super::case::{Boundary, Case};
 use super::mesh::Mesh;
 use super::resolve::{Load, Model, Target};
-use super::sides::Sides;
+use super::sides::{Sides, edge};
 use crate::physics::material::Material;
 use crate::{Error, Result};
 
@@ -34,6 +34,7 @@ pub fn absorbers(
     for (number, (name, kind)) in case.boundaries.iter().enumerate() {
         let group = mesh.group_of(name, 1, "boundary")?;
         refuse_support(case, mesh, name, &group.cells)?;
+        refuse_interface(case, mesh, name, &group.cells)?;
         for (line, face) in border(mesh, group, sides)? {
             if *kind == Boundary::Viscous {
                 refuse_drain(mesh, name, &line, face, loads)?;
@@ -58,6 +59,37 @@ fn refuse_support(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Resu
         }
     }
     Ok(())
+}
+
+/// Ground goes on behind an interface: its body.
+fn refuse_interface(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Result<()> {
+    for (other, interface) in &case.interfaces {
+        let Ok(group) = mesh.group(other) else { continue };
+        if cells.iter().any(|cell| group.cells.binary_search(cell).is_ok()) {
+            return Err(Error::input(format!(
+                "boundaries.{name}: it lies on the interface \"{other}\" of \"{}\", inside the model; boundaries are edges of the mesh \
+                 beyond which the ground goes on",
+                interface.body
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Says where a load acts on dashpots themselves.
+pub fn loaded(case: &Case, model: &Model) -> Option<String> {
+    let lines = model.loads.iter().flat_map(|load| match &load.target {
+        Target::Pressure { lines } | Target::Traction { lines, .. } => lines.iter().map(|l| (load, l)).collect(),
+        _ => vec![],
+    });
+    let own = |line: &Border| model.absorbers.iter().find(|a| edge(&a.line.nodes) == edge(&line.nodes));
+    let (load, absorber) = lines.filter_map(|(load, line)| Some((load, own(line)?))).next()?;
+    let name = case.boundaries.keys().nth(absorber.group)?;
+    Some(format!(
+        "the load on \"{}\" acts on the dashpots of the boundary \"{name}\": the ground beyond takes half of it, as where a wave is \
+         sent in from there; a free surface has no boundary",
+        load.group
+    ))
 }
 
 /// Where a load pushes along a viscous curve, the wave it makes runs along the dashpots: a load on a curve that ends there, or

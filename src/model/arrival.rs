@@ -11,10 +11,10 @@
 //! The largest of these is taken: exact for vertical paths (p = 0, the base under a uniform load), a safe lower bound else.
 
 use super::initial::Initial;
-use super::mesh::Cell;
 use super::resolve::{Model, Target};
+use super::sides::open_sides;
 use crate::physics::material::Material;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// A rectangle [m]; a line or a point where it has no extent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -218,8 +218,8 @@ fn obstacles(model: &Model, all: Region, bodies: &[Region]) -> Vec<Region> {
     let place = |node: usize| model.mesh.points[node];
     let is_level = |y: f64, nodes: &[usize]| nodes.iter().all(|&n| near(place(n)[1], y));
     let is_upright = |nodes: &[usize]| all.x.iter().any(|&x| nodes.iter().all(|&n| near(place(n)[0], x)));
-    let inner =
-        borders(model).into_iter().filter(|line| !all.y.iter().any(|&y| is_level(y, line)) && !is_upright(line));
+    let borders = open_sides(&model.mesh).into_iter().map(|side| [side[0], side[1]]);
+    let inner = borders.filter(|line| !all.y.iter().any(|&y| is_level(y, line)) && !is_upright(line));
 
     let base: Vec<usize> = on(model, Region { y: [all.y[0]; 2], ..all }).collect();
     let dashpots = model.absorbers.iter().filter(|a| is_level(all.y[0], &a.line.nodes));
@@ -236,19 +236,6 @@ fn obstacles(model: &Model, all: Region, bodies: &[Region]) -> Vec<Region> {
     let nodes: BTreeSet<usize> = inner.flatten().chain(held).chain(uneven).collect();
     let is_new = |place: &Region| !bodies.iter().any(|b| b.holds(place));
     nodes.into_iter().map(|n| Region::point(place(n))).filter(is_new).collect()
-}
-
-/// Sides of faces that no other face has: (corner, corner).
-fn borders(model: &Model) -> Vec<[usize; 2]> {
-    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for (cell, _) in model.faces() {
-        let Cell { shape, nodes } = &model.mesh.cells[cell];
-        for side in shape.sides() {
-            let [a, b] = [nodes[side[0]], nodes[side[1]]];
-            *faces.entry([a.min(b), a.max(b)]).or_default() += 1;
-        }
-    }
-    faces.into_iter().filter(|(_, count)| *count == 1).map(|(side, _)| side).collect()
 }
 
 /// Everything that is loaded, or in motion at t = 0.

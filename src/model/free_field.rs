@@ -7,6 +7,7 @@ use super::case::{Boundary, Case};
 use super::initial::Initial;
 use super::mesh::{Cell, Mesh};
 use super::resolve::{Load, Model, Target};
+use super::sides::{edge, open_sides};
 use crate::physics::shape::Shape;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -49,6 +50,31 @@ pub fn free_fields(case: &Case, model: &Model) -> Result<Vec<FreeField>> {
         }
     }
     Ok(found)
+}
+
+/// Two sides whose columns are not alike: then the layers between them are not level.
+pub fn uneven(sides: &[FreeField], model: &Model) -> Option<String> {
+    let layers = |side: &FreeField| {
+        let bottom = |line: &Absorber| model.mesh.points[ends(&line.line, &model.mesh)[1]][1];
+        let mut layers: Vec<(Option<usize>, f64)> = Vec::new();
+        for line in &side.lines {
+            let material = model.material_of[line.face];
+            match layers.last_mut() {
+                Some((last, low)) if *last == material => *low = bottom(line),
+                _ => layers.push((material, bottom(line))),
+            }
+        }
+        layers
+    };
+    let (first, other) = (layers(sides.first()?), layers(sides.get(1)?));
+    let depth = first.iter().fold(1., |depth: f64, (_, y)| depth.max(y.abs()));
+    let alike = first.len() == other.len()
+        && first.iter().zip(&other).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < UPRIGHT * depth);
+    (!alike).then(|| {
+        "the two free-field sides have different layers: each side's ground moves as if its own went on for ever, and waves \
+         between the two are not a free field; keep the layers level near the sides"
+            .into()
+    })
 }
 
 /// What is only nearly so under a moving front.
@@ -96,9 +122,32 @@ fn free_field(name: &str, model: &Model, lines: Vec<Absorber>, outward: f64) -> 
             )));
         }
     }
+    refuse_part(name, &model.mesh, &lines)?;
     let strip = Strip::beside(&lines, &model.mesh);
     let column = column(name, model, &lines, &strip)?;
     Ok(FreeField { lines, outward, twin: strip.twin, origin: strip.origin, column })
+}
+
+/// The edge of the mesh goes on above or below the lines named.
+fn refuse_part(name: &str, mesh: &Mesh, lines: &[Absorber]) -> Result<()> {
+    let ends = [ends(&lines[0].line, mesh)[0], ends(&lines[lines.len() - 1].line, mesh)[1]];
+    let own = |side: &[usize]| lines.iter().any(|l| edge(&l.line.nodes) == edge(side));
+    let goes_on = |side: &&Vec<usize>| {
+        let [a, b] = [0, 1].map(|i| mesh.points[side[i]]);
+        let upright = (a[0] - b[0]).abs() <= UPRIGHT * (a[1] - b[1]).abs();
+        upright && !own(side) && ends.iter().any(|end| side[..2].contains(end))
+    };
+    match open_sides(mesh).iter().find(goes_on) {
+        None => Ok(()),
+        Some(side) => {
+            let end = ends.into_iter().find(|end| side.contains(end)).unwrap_or(side[0]);
+            let [x, y] = mesh.points[end];
+            Err(Error::input(format!(
+                "boundaries.{name}: a side with a free field runs from the surface to the base, and the edge of the mesh goes on \
+                 straight beyond this one's end at ({x:.4}, {y:.4}) m; name all of it, alone"
+            )))
+        }
+    }
 }
 
 /// The column's mesh: a quadrilateral beside each line of the side.
@@ -183,6 +232,19 @@ fn column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip) -> Resul
 fn on_column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip, load: &Load) -> Result<Option<Load>> {
     let top = strip.origin[strip.top.nodes[0]];
     let at_top = |line: &&Border| line.nodes.contains(&top) && !line.is_upright(&model.mesh);
+    if let Target::Pressure { lines } | Target::Traction { lines, .. } = &load.target {
+        let meets = |line: &&Border| !at_top(line) && line.nodes.iter().any(|node| strip.origin.contains(node));
+        if let Some(line) = lines.iter().find(meets) {
+            let node = line.nodes.iter().find(|n| strip.origin.contains(n)).unwrap_or(&line.nodes[0]);
+            let [x, y] = model.mesh.points[*node];
+            return Err(Error::input(format!(
+                "boundaries.{name}: the load on \"{}\" acts on the side or on its foot, at ({x:.4}, {y:.4}) m, and the ground beyond \
+                 a free-field side feels only what acts on its surface or its weight; end the load before the side, or take \
+                 \"viscous\" or a support there",
+                load.group
+            )));
+        }
+    }
     let (sideways, target) = match &load.target {
         Target::Pressure { lines } => match lines.iter().find(at_top) {
             None => return Ok(None),

@@ -1,8 +1,10 @@
 //! Keys of the case that have a meaning, but none here: said so, since somebody meant something by them.
 
 use super::case::{Analysis, Case, Quad4};
+use super::initial::Initial;
 use super::mesh::Shape;
-use super::resolve::Model;
+use super::number::short;
+use super::resolve::{Load, Model};
 
 /// A sentence for each.
 pub fn idle(case: &Case, model: &Model) -> Vec<String> {
@@ -20,6 +22,11 @@ pub fn idle(case: &Case, model: &Model) -> Vec<String> {
     if case.elements.quad4 == Quad4::BBar && !model.faces().any(is_quad4) {
         idle.push("elements.quad4 = \"b_bar\" has no effect: the mesh has no 4-node quadrangles".into());
     }
+    let end = model.time.step * model.time.steps as f64;
+    idle.extend(model.loads.iter().filter_map(|load| never_acts(load, end)));
+    if nothing_acts(model) {
+        idle.push("nothing loads or moves the model: there is no load, no gravity and no initial motion".into());
+    }
     for name in case.initial.keys() {
         if case.json()["initial"][name].as_object().is_some_and(|keys| keys.is_empty()) {
             idle.push(format!("initial.{name} has no effect: it gives neither \"velocity\" nor \"displacement\""));
@@ -27,6 +34,25 @@ pub fn idle(case: &Case, model: &Model) -> Vec<String> {
         idle.extend(held_motion(case, model, name));
     }
     idle
+}
+
+pub fn nothing_acts(model: &Model) -> bool {
+    let still = |motion: &[[f64; 2]]| motion.iter().all(|m| *m == [0.; 2]);
+    let Initial { displacement, velocity } = &model.initial;
+    model.loads.is_empty() && model.gravity == 0. && still(displacement) && still(velocity)
+}
+
+/// A load that is zero, or begins when all is over.
+fn never_acts(load: &Load, end: f64) -> Option<String> {
+    let first = load.sweep.as_ref().map_or(load.pulse.start(), |sweep| sweep.onset()[0]);
+    let because = match load.pulse.is_zero() {
+        true => "it is zero at all times".into(),
+        false if first >= end => {
+            format!("it begins at {} s, and the calculation ends at {} s", short(first), short(end))
+        }
+        false => return None,
+    };
+    Some(format!("the load on \"{}\" never acts: {because}", load.group))
 }
 
 /// A motion at t = 0 of nodes that supports hold.

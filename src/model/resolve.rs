@@ -1,6 +1,6 @@
 //! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
 
-use super::absorbing::{Absorber, absorbers};
+use super::absorbing::{self, Absorber, absorbers};
 use super::boundary::{Border, border};
 use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
 use super::free_field::{self, FreeField, free_fields};
@@ -151,6 +151,8 @@ impl Model {
                 let free_fields = free_fields(case, &model)?;
                 let mut warnings = model.warnings.clone();
                 warnings.extend(free_field::swept(&free_fields, &model.loads));
+                warnings.extend(free_field::uneven(&free_fields, &model));
+                warnings.extend(absorbing::loaded(case, &model));
                 Ok(Model { free_fields, warnings, ..model })
             }
         }

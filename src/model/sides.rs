@@ -25,6 +25,14 @@ pub fn solid_sides(mesh: &Mesh) -> Sides {
     sides
 }
 
+/// The nodes of all sides that one face alone has: the mesh's borders, outer and inner.
+pub fn open_sides(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let mut open: Vec<Vec<usize>> =
+        solid_sides(mesh).into_values().filter(|faces| faces.len() == 1).map(|mut faces| faces.remove(0).1).collect();
+    open.sort_unstable(); // the map has no order
+    open
+}
+
 /// The nodes of a line, or of each side of a face: two ends, then the mid-side node if there is one.
 fn sides_of(cell: &Cell) -> Vec<Vec<usize>> {
     match cell.shape.dimension() {

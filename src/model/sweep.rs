@@ -103,6 +103,16 @@ impl Sweep {
         times.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
 
+    /// First and last time at which the pressure begins at a point of the lines [s].
+    pub fn onset(&self) -> [f64; 2] {
+        self.passage().map(|t| t + self.front.start())
+    }
+
+    /// The front's time that is t = 0 of the calculation [s].
+    pub fn origin(&self) -> f64 {
+        self.zero
+    }
+
     /// Slowest and fastest speed of the front along the lines, part by part [m/s]; infinite where it reaches a part at once.
     pub fn trace_speeds(&self) -> [f64; 2] {
         let speed = |p: &Part| {

@@ -86,6 +86,16 @@ impl Pulse {
         }
     }
 
+    /// Whether it is zero at all times.
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Pulse::Linear { peak, .. } | Pulse::Step { peak } | Pulse::Ramp { peak, .. } => *peak == 0.0,
+            Pulse::HalfSine { peak, .. } | Pulse::Friedlander { peak, .. } => *peak == 0.0,
+            Pulse::Table { values, .. } => values.iter().all(|&v| v == 0.0),
+            Pulse::Delayed { law, .. } => law.is_zero(),
+        }
+    }
+
     /// Whether it begins with a jump, from zero to a value.
     pub fn jumps(&self) -> bool {
         self.at(self.start()) != 0.0

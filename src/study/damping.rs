@@ -10,6 +10,8 @@ use crate::solve::system::Rayleigh;
 const FREQUENCIES: [f64; 10] = [1., 2., 5., 10., 20., 50., 100., 200., 500., 1000.];
 /// Damped more than so many times the ratio asked for counts as outside the fitted band.
 const TOO_MUCH: f64 = 2.;
+/// Ratio that ground does not have at small strains.
+const STRONG: f64 = 0.2;
 /// Share of a load's energy outside the band from which on it is warned of.
 const TOLERATED: f64 = 0.1;
 
@@ -52,7 +54,7 @@ pub fn warnings(model: &Model, rayleigh: Rayleigh) -> Vec<String> {
         _ => least(alpha, beta).map(|(_, xi)| xi),
     };
     let Some((asked, [low, high])) = asked.and_then(|xi| Some((xi, band(alpha, beta, TOO_MUCH * xi)?))) else {
-        return vec![];
+        return one_sided(model, rayleigh);
     };
     let warning = |(group, spectrum): (String, Spectrum)| {
         let [below, above] = [spectrum.share_below(low), 1. - spectrum.share_below(high)];
@@ -65,6 +67,24 @@ pub fn warnings(model: &Model, rayleigh: Rayleigh) -> Vec<String> {
                 100. * above,
                 three_digits(high),
                 three_digits(100. * asked)
+            )
+        })
+    };
+    spectra(model).into_iter().filter_map(warning).collect()
+}
+
+/// Damping by alpha or by beta alone has no band; it may be more than any ground has where the load lives.
+fn one_sided(model: &Model, Rayleigh { alpha, beta }: Rayleigh) -> Vec<String> {
+    let warning = |(group, spectrum): (String, Spectrum)| {
+        let half = spectrum.frequency_of(0.5);
+        let [below, there, above] = [0.25, 0.5, 0.75].map(|share| ratio(alpha, beta, spectrum.frequency_of(share)));
+        (below.max(above) > STRONG).then(|| {
+            format!(
+                "damping: xi is {} % at {} Hz, below which half of the energy of the load on {group} lies, and more than {} % over a \
+                 quarter of it: is that meant?",
+                three_digits(100. * there),
+                three_digits(half),
+                three_digits(100. * STRONG)
             )
         })
     };

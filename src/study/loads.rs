@@ -40,7 +40,7 @@ fn rise(load: &Load, step: f64) -> String {
 
 /// The front's speed along its lines against the waves of every ground.
 fn front(sweep: &Sweep, model: &Model) -> String {
-    let ([slow, fast], [first, last]) = (sweep.trace_speeds(), sweep.passage());
+    let ([slow, fast], [first, last]) = (sweep.trace_speeds(), sweep.onset());
     let [first, last] = [first, last].map(|t| short((1e9 * t).round() / 1e9)); // without the round-off of places
     if slow.is_infinite() {
         return format!("    its front reaches all of the curve at once, at {first} s\n");
@@ -50,7 +50,11 @@ fn front(sweep: &Sweep, model: &Model) -> String {
         fast if fast.is_finite() => format!("at {slow:.1} to {fast:.1} m/s"),
         _ => format!("at {slow:.1} m/s and more, a part of it at once"),
     };
-    let mut text = format!("    its front runs along the surface {speeds}, from {first} to {last} s\n");
+    let mut text = format!("    its front runs along the surface {speeds}, pressing from {first} to {last} s on\n");
+    let end = model.time.step * model.time.steps as f64;
+    if sweep.onset()[1] > end {
+        text += &format!("    it has not reached all of the curve when the calculation ends, at {} s\n", short(end));
+    }
     for (name, material) in model.materials.iter().filter(|(name, _)| !model.bodies.contains(name)) {
         text += &format!(
             "    {name}: {}; c_p {:.1}, c_s {:.1}, c_R {:.1} m/s\n",

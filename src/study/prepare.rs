@@ -53,6 +53,7 @@ impl Prepared {
         // Statics has neither inertia nor damping, so no modes to take them from.
         let moves = model.analysis == Analysis::Dynamic;
         let damping = model.damping.filter(|_| moves).map(|d| d.rayleigh);
+        refuse_high_modes(damping, system.unknowns.count)?;
         let modes = if moves { modes_of(&model, &system, &symbolic, &orders, needed_modes(damping))? } else { vec![] };
         let rayleigh = coefficients(damping, &modes)?;
         model.warnings.extend(damping::beyond_the_boundaries(&model, rayleigh.alpha));
@@ -115,6 +116,21 @@ fn modes_of(
         frequency: m.frequency,
     };
     Ok(modes.into_iter().map(released).collect())
+}
+
+/// The highest mode that damping may be fitted at: finding more takes minutes, and no load of a blast lives there.
+const HIGHEST_MODE: usize = 200;
+
+fn refuse_high_modes(damping: Option<Damping>, unknowns: usize) -> Result<()> {
+    match (damping, needed_modes(damping)) {
+        (Some(Damping::Ratio { .. }), needed) if needed > HIGHEST_MODE && unknowns > HIGHEST_MODE => {
+            Err(Error::input(format!(
+                "damping.modes asks for mode {needed} of {unknowns} at most; choose among the first {HIGHEST_MODE}, since to find more \
+                 takes minutes, or fit a higher frequency by alpha and beta"
+            )))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn needed_modes(damping: Option<Damping>) -> usize {

@@ -6,8 +6,11 @@
 mod report;
 
 use crate::model::case::Case;
+use crate::model::mesh::Mesh;
+use crate::model::number::short;
 use crate::model::resolve::Model;
 use crate::results::histories::Peak;
+use crate::study::mesh;
 use crate::study::quantity::Quantity;
 use crate::study::richardson::Estimate;
 use crate::study::run::{self, Request};
@@ -15,6 +18,7 @@ use crate::study::script::Script;
 use crate::study::series::{self, Member, Series, Variant};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
+use std::io::Write;
 
 /// What the command line asks of the study.
 #[derive(Debug, Clone)]
@@ -71,21 +75,67 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
     let quantities = Quantity::all(&options.compare, &loaded, &["u", "a"])?;
     let frames = if quantities.iter().any(Quantity::is_ring) { case.frame_interval() } else { case.time.end.0 };
     let series = Series { request, folder: request.folder(&case).join("converge") };
+    let fine = |k: i32| rounded(refine * options.ratio.powi(k));
+    refuse_equal_meshes(request, &case, options, [0, 1, 2].map(fine))?;
     let run = |name: String, level: f64, step: f64| {
         let sets = vec![format!("output.every={frames:e}"), format!("time.step={step:e}")];
         series.run(&Variant { name, geo: BTreeMap::from([(options.refine.clone(), level)]), sets })
     };
     let step = case.time.step.0;
-    let fine = |k: i32| rounded(refine * options.ratio.powi(k));
-    let mesh = |k: i32| run(format!("{}{}", options.refine, fine(k)), fine(k), step);
+    let by_mesh = |k: i32| run(format!("{}{}", options.refine, fine(k)), fine(k), step);
     let time = |k: i32| match k {
-        0 => mesh(0),
+        0 => by_mesh(0),
         _ => run(format!("step_{}", STEP_RATIO.powi(k)), fine(0), step / STEP_RATIO.powi(k)),
     };
-    let ladders = [ladder("mesh", options.ratio, &quantities, &mesh)?, ladder("step", STEP_RATIO, &quantities, &time)?];
+    let ladders =
+        [ladder("mesh", options.ratio, &quantities, &by_mesh)?, ladder("step", STEP_RATIO, &quantities, &time)?];
     let findings = findings(quantities, &ladders, &loaded.model);
-    let table = report::table(&ladders, &findings);
-    Ok(table + &report::write(&series, &ladders, &findings)?)
+    if findings.iter().all(|f| f.value == 0.) {
+        return Err(Error::input(
+            "nothing that is looked at moves: look at the warnings of coralpipe check, and at time.end",
+        ));
+    }
+    let table = report::table(&ladders, &findings) + &report::write(&series, &ladders, &findings)?;
+    if findings.iter().any(Finding::converges) {
+        return Ok(table);
+    }
+    // the table is a result even where the answer is no
+    let _ = std::io::stdout().write_all(table.as_bytes());
+    Err(Error::NoConvergence(
+        "no peak converges on these meshes and time steps: the table says how each goes on".into(),
+    ))
+}
+
+/// Errors where the constant does not make the elements smaller by about the ratio: three alike meshes agree in everything.
+fn refuse_equal_meshes(request: &Request, case: &Case, options: &Options, levels: [f64; 3]) -> Result<()> {
+    let size = |level: f64| {
+        let mut geo = request.geo.clone();
+        geo.insert(options.refine.clone(), level);
+        Ok(mean_size(&mesh::obtain(case, &geo, None)?.mesh))
+    };
+    let sizes = levels.map(size).into_iter().collect::<Result<Vec<f64>>>()?;
+    let least = 1. + (options.ratio - 1.) / 2.;
+    match (1..3).find(|&k| sizes[k - 1] / sizes[k] < least) {
+        None => Ok(()),
+        Some(k) => Err(Error::input(format!(
+            "{} = {} does not make the mesh finer by {}: its elements measure {} m on average, those of {} = {} {} m; name the \
+             constant that divides all element sizes by --refine, or take a larger --ratio",
+            options.refine,
+            levels[k],
+            options.ratio,
+            short(1e-4 * (1e4 * sizes[k]).round()),
+            options.refine,
+            levels[k - 1],
+            short(1e-4 * (1e4 * sizes[k - 1]).round())
+        ))),
+    }
+}
+
+/// Square root of the faces' mean area [m].
+fn mean_size(mesh: &Mesh) -> f64 {
+    let areas: Vec<f64> =
+        mesh.cells.iter().filter(|c| c.shape.dimension() == 2).map(|c| mesh.measure(c).abs()).collect();
+    (areas.iter().sum::<f64>() / areas.len() as f64).sqrt()
 }
 
 /// The constant that refines; one that is 0 cannot be made finer.
@@ -129,7 +179,7 @@ fn findings(quantities: Vec<Quantity>, ladders: &[Ladder; 2], model: &Model) -> 
         // a jump of pressure is a jump of velocity: its acceleration is a delta function, which only beta spreads
         let only_damping_bounds_it = quantity.is_acceleration() && jumps;
         let hopeless = (only_damping_bounds_it && undamped)
-            .then_some("the load jumps at t = 0 and no stiffness-proportional damping spreads the front");
+            .then_some("the load begins with a jump and no stiffness-proportional damping spreads the front");
         let (value, estimates) = (ladders[0].peaks[i][0].value, ladders.each_ref().map(estimate));
         Finding { quantity, value, estimates, hopeless, only_damping_bounds_it }
     };

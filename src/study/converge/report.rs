@@ -1,6 +1,6 @@
 //! The study's table, CSV, JSON and plot.
 
-use super::{Finding, Ladder, rounded};
+use super::{Finding, Ladder, USELESS, rounded};
 use crate::Result;
 use crate::results::file;
 use crate::results::histories::Peak;
@@ -22,7 +22,15 @@ impl Finding {
                  {step}\n"
             );
         }
-        let why = self.hopeless.map_or(String::new(), |why| format!(" ({why})"));
+        let too_large = || {
+            let (limit, error) = self.limit()?;
+            let [share, most] = [error / value.abs(), USELESS].map(|x| 100. * x);
+            Some(format!(" to better than {most:.0} %: its error is {share:.0} %, extrapolated {limit:.4e}"))
+        };
+        let why = match self.hopeless {
+            Some(why) => format!(" ({why})"),
+            None => too_large().unwrap_or_default(),
+        };
         let refined = ladders.iter().map(|ladder| {
             let values = ladder.peaks[i].map(|p| format!("{:.4e}", p.value)).join(", ");
             format!("{values} {unit} as the {} is refined", ladder.name)
@@ -61,7 +69,7 @@ pub fn table(ladders: &[Ladder; 2], findings: &[Finding]) -> String {
     text += "peaks of the case, with the error that its mesh and its step leave (difference from the extrapolated value, order)\n";
     text += &findings.iter().enumerate().map(|(i, f)| f.line(ladders, i)).collect::<String>();
     if findings.iter().any(|f| f.only_damping_bounds_it) {
-        text += "  accelerations: the load jumps at t = 0, and only stiffness-proportional damping spreads its front over more than \
+        text += "  accelerations: the load begins with a jump, and only stiffness-proportional damping spreads its front over more than \
                  an element\n";
     }
     text

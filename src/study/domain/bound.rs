@@ -66,15 +66,20 @@ impl Study<'_> {
         if !returns.base_is_held || first >= self.until {
             return String::new();
         }
+        let until = milliseconds(self.until);
+        if !returns.load_is_uniform {
+            return format!(
+                "  the base is held: it gives waves back. In the {until} ms compared, what comes after {} ms changes with the height until \
+                 they have spread out or been damped; compare until then (--until), go deeper, or write \"boundaries\": {{ \"base\": \
+                 \"viscous\" }}\n",
+                milliseconds(first)
+            );
+        }
         let needed = height + (self.until - first) * returns.base_speed / 2.;
-        let why = match returns.load_is_uniform {
-            true => "gives the plane wave of a uniform load back whole, however deep it lies",
-            false => "gives waves back",
-        };
         format!(
-            "  the base is held: it {why}. In the {} ms compared, what comes after {} ms cannot converge below {} = {} but by \
-             damping; compare until {} ms (--until), go that deep, or write \"boundaries\": {{ \"base\": \"viscous\" }}\n",
-            milliseconds(self.until),
+            "  the base is held: it gives the plane wave of a uniform load back whole, however deep it lies. In the {until} ms \
+             compared, what comes after {} ms cannot converge below {} = {} but by damping; compare until {} ms (--until), go that \
+             deep, or write \"boundaries\": {{ \"base\": \"viscous\" }}\n",
             milliseconds(first),
             self.options.height,
             short((10. * needed).ceil() / 10.),

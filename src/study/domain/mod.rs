@@ -11,7 +11,10 @@ use super::run::{self, Request};
 use super::script::Script;
 use super::series::{self, Member, Series, Variant};
 use crate::model::arrival::{Returns, returns};
-use crate::model::case::{Analysis, Case};
+use crate::model::case::{Analysis, Case, Geometry};
+use crate::model::number::short;
+use crate::model::resolve::Model;
+use crate::model::sweep::Sweep;
 use crate::model::units::Time;
 use crate::results::file;
 use crate::{Error, Result};
@@ -53,6 +56,8 @@ struct Row {
     first_return: f64,
     /// in this size
     returns: Option<Returns>,
+    /// for each load its front's time that is t = 0 [s], if it has a front
+    origins: Vec<Option<f64>>,
 }
 
 struct Study<'a> {
@@ -63,8 +68,10 @@ struct Study<'a> {
     /// [s]
     until: f64,
     start: Size,
-    /// constants that keep the inner mesh, if the script has them
+    /// constants that keep the inner mesh, if the script has them and the user gives none
     core: BTreeMap<String, f64>,
+    /// the script has such constants
+    inner_mesh_is_kept: bool,
     sets: Vec<String>,
 }
 
@@ -86,13 +93,16 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
         // the table is a result even where the answer is no
         let _ = std::io::stdout().write_all(table.as_bytes());
         Error::NoConvergence(format!(
-            "up to {} = {} and {} = {} the quantities still change by more than {} %: let it grow further by --sizes, compare a \
-             shorter window by --until, or let the boundaries absorb",
+            "up to {} = {} and {} = {} the quantities still change by more than {} %: let it grow further by --sizes{}",
             options.width,
             largest[0],
             options.height,
             largest[1],
-            report::short(100. * study.tolerance)
+            short(100. * study.tolerance),
+            match rows.last().and_then(|r| r.returns.as_ref()) {
+                Some(_) => ", compare a shorter window by --until, or let the boundaries absorb",
+                None => "",
+            }
         ))
     };
     match settled {
@@ -137,7 +147,8 @@ impl<'a> Study<'a> {
             tolerance,
             until,
             start,
-            core: core(&script, options, start),
+            core: core(&script, options, start, &given(&case, request)),
+            inner_mesh_is_kept: core_names(options).iter().all(|name| script.constants.iter().any(|c| c.name == *name)),
             sets: vec![format!("output.every={frames:e}")],
         })
     }
@@ -145,6 +156,11 @@ impl<'a> Study<'a> {
     /// Appends a row for each size; the size that is large enough, if one was found.
     fn grow(&mut self, rows: &mut Vec<Row>) -> Result<Option<Size>> {
         rows.push(self.row(self.start, None)?);
+        if rows[0].histories.iter().all(|h| h.peak().value == 0.) {
+            return Err(Error::input(
+                "nothing that is compared moves in the window: look at the warnings of coralpipe check, and at --until",
+            ));
+        }
         self.keep_damping(&rows[0].member)?;
         let mut now = 0;
         for axes in [[true, false], [false, true], [true, true]] {
@@ -179,20 +195,25 @@ impl<'a> Study<'a> {
         let mut geo = self.core.clone();
         geo.extend([(width.clone(), w), (height.clone(), h)]);
         let variant = Variant { name: format!("{width}{w}_{height}{h}"), geo, sets: self.sets.clone() };
+        let mut request = self.series.request.clone();
+        request.geo.extend(variant.geo.clone());
+        let model = run::load(&request)?.model;
+        let origins = model.loads.iter().map(|l| l.sweep.as_ref().map(Sweep::origin)).collect();
+        if let Some((row, _)) = from {
+            refuse_shift(&row.origins, &origins, &model, size)?;
+        }
         let member = self.series.run(&variant)?;
         let history = |q: &Quantity| Ok(q.history(&member.folder)?.until(self.until));
         let histories: Vec<History> = self.quantities.iter().map(history).collect::<Result<_>>()?;
-        let mut request = self.series.request.clone();
-        request.geo.extend(variant.geo);
         let first_return =
             from.map_or(f64::NAN, |(row, moved)| bound::first(row.returns.as_ref(), moved, &self.quantities));
         let pairs = from.iter().flat_map(|(row, _)| row.histories.iter().zip(&histories));
         let ends = [self.until, first_return.min(self.until)];
         let changes = pairs.map(|(old, new)| ends.map(|end| old.until(end).change_to(&new.until(end)))).collect();
-        let model = run::load(&request)?.model;
         // statics has no waves
         let returns = if model.analysis == Analysis::Dynamic { returns(&model) } else { None };
-        Ok(Row { size, from: from.map(|(row, _)| row.size), histories, changes, first_return, returns, member })
+        let from = from.map(|(row, _)| row.size);
+        Ok(Row { size, from, histories, changes, first_return, returns, origins, member })
     }
 
     /// alpha and beta of the first size for all: the modes of a larger one are lower, and would change the material too.
@@ -233,9 +254,42 @@ fn window(case: &Case, until: Option<&str>) -> Result<f64> {
     Ok(until)
 }
 
-/// `core_WIDTH` and `core_HEIGHT` of the script at the first size.
-fn core(script: &Script, options: &Options, start: Size) -> BTreeMap<String, f64> {
-    let named = [&options.width, &options.height].map(|name| format!("core_{name}"));
-    let pairs = named.into_iter().zip(start);
-    pairs.filter(|(name, _)| script.constants.iter().any(|c| c.name == *name)).collect()
+/// Round-off of arrivals [s]
+const SAME_TIME: f64 = 1e-9;
+
+/// Histories counted from different times cannot be compared.
+fn refuse_shift(old: &[Option<f64>], new: &Vec<Option<f64>>, model: &Model, [width, height]: Size) -> Result<()> {
+    let shift = |(a, b): (&Option<f64>, &Option<f64>)| Some((b.as_ref()? - a.as_ref()?).abs());
+    let shifts = old.iter().zip(new).map(|pair| shift(pair).unwrap_or(0.));
+    match shifts.zip(&model.loads).find(|(shift, _)| *shift > SAME_TIME) {
+        None => Ok(()),
+        Some((shift, load)) => Err(Error::input(format!(
+            "the load on \"{}\" counts t = 0 from its front's arrival at the curve, which at {} x {} comes {} ms away from that of the size \
+             before: the histories cannot be compared; give a charge \"clock\": \"detonation\", or load a curve that does not grow",
+            load.group,
+            report::short(width),
+            report::short(height),
+            report::short(1e3 * shift)
+        ))),
+    }
+}
+
+fn core_names(options: &Options) -> [String; 2] {
+    [&options.width, &options.height].map(|name| format!("core_{name}"))
+}
+
+/// `core_WIDTH` and `core_HEIGHT` of the script at the first size, where the user gives no others.
+fn core(script: &Script, options: &Options, start: Size, given: &[String]) -> BTreeMap<String, f64> {
+    let pairs = core_names(options).into_iter().zip(start);
+    let is_known = |name: &String| script.constants.iter().any(|c| c.name == *name);
+    pairs.filter(|(name, _)| is_known(name) && !given.contains(name)).collect()
+}
+
+/// Constants that the case or the command line sets.
+fn given(case: &Case, request: &Request) -> Vec<String> {
+    let parameters = match &case.geometry {
+        Some(Geometry::Script { parameters, .. }) => parameters.keys().cloned().collect(),
+        _ => vec![],
+    };
+    request.geo.keys().cloned().chain(parameters).collect()
 }

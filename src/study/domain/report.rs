@@ -1,7 +1,8 @@
 //! The study's table, CSV, JSON and plot.
 
-use super::{Row, Size, Study};
+use super::{Row, Size, Study, core_names};
 use crate::Result;
+use crate::model::number;
 use crate::results::plot::{Curve, Panel, svg};
 use crate::study::history::History;
 use serde_json::{Value, json};
@@ -37,7 +38,7 @@ impl Study<'_> {
         text += &format!(
             "change = max |new - old| / max |new| of the quantity that changes most; tolerance {} %\n{:>9} {:>9} {:>9} {:>24} \
              {:>30} {:>9}\n",
-            short(100. * self.tolerance),
+            number::short(100. * self.tolerance),
             options.width,
             options.height,
             "unknowns",
@@ -46,17 +47,21 @@ impl Study<'_> {
             "run [s]"
         );
         text += &rows.iter().map(|row| self.line(row)).collect::<String>();
-        text += "\npeaks and their change in the last step\n";
-        let last = &rows[rows.len() - 1];
-        for (i, quantity) in self.quantities.iter().enumerate() {
-            let peak = last.histories[i].peak();
-            let change = last.changes.get(i).map_or("-".into(), |[whole, _]| per_cent(whole.peak));
+        if !self.inner_mesh_is_kept {
+            let [width, height] = core_names(options);
             text += &format!(
-                "  {quantity:<18} {:>12.4e} {} at {:.2} ms, change {change} %\n",
-                peak.value,
-                quantity.unit(),
-                1e3 * peak.time
+                "  the script has no constants {width} and {height}: each size has another mesh inside too, which counts as change\n"
             );
+        }
+        text += "\npeak of each quantity at each size, and the change of its history from the size it grew from [%]\n";
+        for (i, quantity) in self.quantities.iter().enumerate() {
+            text += &format!("  {quantity} [{}]\n", quantity.unit());
+            for row in rows {
+                let peak = row.histories[i].peak();
+                let change = row.changes.get(i).map_or("-".into(), |[whole, _]| per_cent(whole.history));
+                let size = row.size.map(short).join(" x ");
+                text += &format!("{size:>20} {:>13.4e} at {:>7.2} ms {change:>9}\n", peak.value, 1e3 * peak.time);
+            }
         }
         text
     }
@@ -90,7 +95,7 @@ impl Study<'_> {
             short(height),
             grown(width),
             grown(height),
-            short(100. * self.tolerance)
+            number::short(100. * self.tolerance)
         )
     }
 
