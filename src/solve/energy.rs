@@ -213,5 +213,5 @@ fn side_work(old: &[(usize, f64)], new: &[(usize, f64)], x: &[f64]) -> f64 {
 }
 
 fn mean_dot(a: &[f64], b: &[f64], x: &[f64]) -> f64 {
-    (0..x.len()).map(|i| (a[i] + b[i]) / 2. * x[i]).sum()
+    (dot(a, x) + dot(b, x)) / 2.
 }

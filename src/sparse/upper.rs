@@ -47,6 +47,9 @@ impl Upper {
     }
 }
 
+/// Entries that are summed at once: one sum waits too long for its last addition.
+const AT_ONCE: usize = 2;
+
 struct SumOfProducts<'a, const K: usize> {
     pattern: &'a Upper,
     a: &'a [f64],
@@ -63,16 +66,25 @@ impl<const K: usize> Kernel for SumOfProducts<'_, K> {
         let mut sums = vec![[0.; K]; xy.len()];
         for (i, [x_i, y_i]) in xy.iter().enumerate() {
             let row = pattern.row(i);
-            let entries = pattern.columns[row.clone()].iter().zip(&a[row.clone()]).zip(&b[row.clone()]);
-            let mut sum: [f64; K] = std::array::from_fn(|k| a[row.start] * x_i[k] + b[row.start] * y_i[k]);
-            for ((&j, a), b) in entries.skip(1) {
+            let mut right = [[0.; K]; AT_ONCE];
+            let mut add = |right: &mut [f64; K], j: u32, a: f64, b: f64| {
                 let ([x_j, y_j], below) = (&xy[j as usize], &mut sums[j as usize]);
                 for k in 0..K {
-                    sum[k] += a * x_j[k] + b * y_j[k];
+                    right[k] += a * x_j[k] + b * y_j[k];
                     below[k] += a * x_i[k] + b * y_i[k];
                 }
+            };
+            let (columns, last_column) = pattern.columns[row.start + 1..row.end].as_chunks::<AT_ONCE>();
+            let [(a_s, last_a), (b_s, last_b)] = [a, b].map(|m| m[row.start + 1..row.end].as_chunks::<AT_ONCE>());
+            for ((j, a), b) in columns.iter().zip(a_s).zip(b_s) {
+                (0..AT_ONCE).for_each(|e| add(&mut right[e], j[e], a[e], b[e]));
             }
-            (0..K).for_each(|k| sums[i][k] += sum[k]);
+            for ((&j, &a), &b) in last_column.iter().zip(last_a).zip(last_b) {
+                add(&mut right[0], j, a, b);
+            }
+            for k in 0..K {
+                sums[i][k] += a[row.start] * x_i[k] + b[row.start] * y_i[k] + right[0][k] + right[1][k];
+            }
         }
         sums
     }
@@ -93,21 +105,26 @@ impl<const K: usize> Kernel for QuadraticForms<'_, K> {
         let mut forms = [[0.; K]; 3];
         for (i, here) in xyz.iter().enumerate() {
             let row = pattern.row(i);
-            let columns = pattern.columns[row.clone()].iter();
-            let entries = columns.zip(&a[row.clone()]).zip(&b[row.clone()]).zip(&c[row.clone()]);
-            let mut right = [[0.; K]; 3];
-            for (((&j, a), b), c) in entries.skip(1) {
-                let [x, y, z] = &xyz[j as usize];
-                for k in 0..K {
-                    right[0][k] += a * x[k];
-                    right[1][k] += b * y[k];
-                    right[2][k] += c * z[k];
+            let mut right = [[[0.; K]; 3]; AT_ONCE];
+            let add = |right: &mut [[f64; K]; 3], j: u32, values: [f64; 3]| {
+                let there = &xyz[j as usize];
+                for m in 0..3 {
+                    (0..K).for_each(|k| right[m][k] += values[m] * there[m][k]);
                 }
+            };
+            let (columns, last_column) = pattern.columns[row.start + 1..row.end].as_chunks::<AT_ONCE>();
+            let [(a_s, last_a), (b_s, last_b), (c_s, last_c)] =
+                [a, b, c].map(|m| m[row.start + 1..row.end].as_chunks::<AT_ONCE>());
+            for (((j, a), b), c) in columns.iter().zip(a_s).zip(b_s).zip(c_s) {
+                (0..AT_ONCE).for_each(|e| add(&mut right[e], j[e], [a[e], b[e], c[e]]));
+            }
+            for (((&j, &a), &b), &c) in last_column.iter().zip(last_a).zip(last_b).zip(last_c) {
+                add(&mut right[0], j, [a, b, c]);
             }
             // Each entry off the diagonal stands for two.
             for (m, values) in [a, b, c].into_iter().enumerate() {
-                let diagonal = values[row.start];
-                (0..K).for_each(|k| forms[m][k] += here[m][k] * (diagonal * here[m][k] + 2. * right[m][k]));
+                let of_row = |k: usize| values[row.start] * here[m][k] + 2. * (right[0][m][k] + right[1][m][k]);
+                (0..K).for_each(|k| forms[m][k] += here[m][k] * of_row(k));
             }
         }
         forms
