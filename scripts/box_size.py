@@ -44,7 +44,7 @@ def main():
     book = Book(quick=False)
     sets = {"damping": DAMPING, "output.every": "1 ms"}
     results = [book.run(CASE, sets={**sets, **edges}, geo=geo) for _, edges, geo, _, _ in BOXES]
-    histories, rings = [r.histories for r in results], [r.rings for r in results]
+    histories, rings = [r.histories for r in results], [r.rings() for r in results]
     drawing = Figure(figsize=(7.2, 3.6), layout="constrained")
     axes = drawing.subplots()
     for (words, _, _, colour, width), history, ring in zip(BOXES, histories, rings):

@@ -330,7 +330,7 @@ fn strip(depth: u32, pressure: Value, end: f64) -> (Mesh, Value) {
 
 /// Dashpots stand for the ground below, which is damped as the rest: a base at 15 m is one at 60 m, which nothing reaches and
 /// comes back from within 100 ms (2 x 60 / 620.1 = 194 ms). The two terms are the first of a series in alpha / w and w beta;
-/// measured 0.034 % of the peak, and 5 % without the first of them, 2 % of the velocity without the second.
+/// measured 0.033 % of the peak, 5.2 % without the first of them, 1.1 % without the second; of the velocity 0.11 %.
 #[test]
 fn a_damped_column_does_not_know_where_its_open_base_is() {
     let damped = Rayleigh { alpha: 3.302, beta: 7.562e-4 };
@@ -525,7 +525,7 @@ fn a_boundary_on_an_interface_is_refused() {
 }
 
 /// What is possible, and seldom meant, is said: dashpots on a loaded surface, sides whose layers are not those of the other,
-/// and loads that push for longer than 1 / alpha, a third of a second here.
+/// and calculations that go on for longer than 1 / alpha, a third of a second here.
 #[test]
 fn boundaries_that_are_seldom_meant_are_warned_of() {
     let said = |model: &Model, words: &str| model.warnings.iter().any(|w| w.contains(words));
@@ -564,9 +564,11 @@ fn boundaries_that_are_seldom_meant_are_warned_of() {
         Prepared::new(support::model(&json, &mesh)).unwrap().model
     };
     let step = json!({ "law": "step", "peak": 1e5 });
-    assert!(said(&prepared(step.clone(), 3.), "longer than 1 / alpha = 0.333 s"));
+    assert!(said(&prepared(step.clone(), 3.), "1 / alpha = 0.333 s"));
     assert!(!said(&prepared(step, 2.), "1 / alpha"));
-    assert!(!said(&prepared(json!({ "law": "linear", "peak": 1e5, "duration": 0.05 }), 3.), "1 / alpha"));
+    // what a pulse leaves behind is pulled back, too
+    let pulse = json!({ "law": "linear", "peak": 1e5, "duration": 0.05 });
+    assert!(said(&prepared(pulse.clone(), 3.), "1 / alpha") && !said(&prepared(pulse, 2.), "1 / alpha"));
 }
 
 /// Squares of 1 m around a stiff block, 2 m wide and from 2 to 4 m deep: velocities and displacements of its top's middle and of the

@@ -4,8 +4,8 @@ mod program;
 mod support;
 
 use coralpipe::model::mesh::{Mesh, Shape};
+use coralpipe::model::moving_front::MovingFront;
 use coralpipe::model::resolve::{Load, Model};
-use coralpipe::model::sweep::Sweep;
 use coralpipe::physics::explosion::{Burst, Explosion, Form, Formula, Wave};
 use coralpipe::solve::system::System;
 use program::Bench;
@@ -241,7 +241,7 @@ fn block(second_order: bool, pressure: Value) -> (Mesh, Value) {
 }
 
 /// Total force downwards [N] and its moment about x = 0 [N m].
-fn resultant(model: &Model, sweep: &Sweep, t: f64) -> [f64; 2] {
+fn resultant(model: &Model, sweep: &MovingFront, t: f64) -> [f64; 2] {
     sweep.forces(t).fold([0., 0.], |[f, m], (node, [_, fy])| [f - fy, m - fy * model.mesh.points[node][0]])
 }
 
@@ -253,7 +253,7 @@ fn behind_a_front_the_force_is_pressure_times_the_length_it_has_passed() {
         let pressure = json!({ "law": "step", "peak": 7, "front": { "speed": 100, "direction": [2, 0] } });
         let (mesh, json) = block(second_order, pressure);
         let model = support::model(&json, &mesh);
-        let sweep = model.loads[0].sweep.as_ref().unwrap();
+        let sweep = model.loads[0].front.as_ref().unwrap();
         for t in (0..400).map(|i| i as f64 * 1e-4) {
             let passed = (100. * t).min(3.);
             let [force, moment] = resultant(&model, sweep, t);
@@ -273,7 +273,7 @@ fn a_charge_over_an_edge_loads_both_ways_and_without_jumps() {
     let keys = json!({ "charge": "8 kg", "at": [1.4, 3], "burst": "spherical", "wave": "incident" });
     let (mesh, json) = block(false, json!({ "law": "charge", "explosion": keys, "scale": 0.5 }));
     let model = support::model(&json, &mesh);
-    let sweep = model.loads[0].sweep.as_ref().unwrap();
+    let sweep = model.loads[0].front.as_ref().unwrap();
     let (formula, burst) = (Formula::KingeryBulmash, Burst::Spherical);
     let explosion = Explosion { tnt: 8., formula, burst, wave: Wave::Incident, form: Form::Friedlander };
     let zero = explosion.arrival(2.);
@@ -406,7 +406,7 @@ fn a_charge_counts_as_its_mass_of_tnt() {
 fn a_front_without_a_speed_has_the_shocks() {
     let charge = json!({ "charge": "1 t", "standoff": "30 m", "wave": "incident" });
     let load = load(json!({ "law": "charge", "explosion": charge, "front": { "direction": [1, 0] } }));
-    let [first, last] = load.sweep.unwrap().passage();
+    let [first, last] = load.front.unwrap().passage();
     assert!(first == 0. && (last * 479.268 / 3. - 1.).abs() < 1e-5, "{first} {last}");
 }
 
@@ -416,7 +416,7 @@ fn the_clock_counts_from_the_arrival_or_from_the_detonation() {
     for (clock, expected) in [("arrival", 0.), ("detonation", 16.48982e-3)] {
         let charge =
             json!({ "charge": "8 kg", "at": [-10, 1], "burst": "hemispherical", "wave": "incident", "clock": clock });
-        let first = load(json!({ "law": "charge", "explosion": charge })).sweep.unwrap().passage()[0];
+        let first = load(json!({ "law": "charge", "explosion": charge })).front.unwrap().passage()[0];
         assert!((first - expected).abs() < 1e-8, "{clock}: {first}");
     }
 }

@@ -164,7 +164,7 @@ fn what_a_study_cannot_do_is_refused_with_a_sentence() {
         ("domain box.json --set probes=[]", "nothing to compare"),
         ("converge block.json", "needs a script"),
         ("converge box.json --ratio 1", "--ratio 1: each mesh must be finer"),
-        ("converge box.json --ratio 1.0001", "does not make the mesh finer by 1.0001: its elements measure 0.5 m"),
+        ("converge box.json --ratio 1.0001", "does not make the mesh finer by 1.0001: its elements measure 0.4"),
         ("converge box.json --refine width", "width = 6 does not make the mesh finer by 1.5"),
         ("converge box.json --refine fine", "no constant \"fine\""),
         ("converge box.json --compare Q.uy", "no probe or pipe \"Q\""),

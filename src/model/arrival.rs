@@ -265,7 +265,7 @@ fn is_uniform(model: &Model, all: Region, load: Region) -> bool {
     let top = Region { y: [all.y[1]; 2], ..all };
     let same = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < SAME_PLACE && (a[1] - b[1]).abs() < SAME_PLACE;
     let length: f64 = model.loads.iter().map(|l| covered(model, &l.target)).fold(f64::INFINITY, f64::min);
-    let at_once = model.loads.iter().all(|l| l.sweep.is_none());
+    let at_once = model.loads.iter().all(|l| l.front.is_none());
     let at_rest = moving(model).next().is_none();
     at_once
         && at_rest
@@ -279,7 +279,7 @@ fn start(model: &Model) -> f64 {
     if moving(model).next().is_some() {
         return 0.;
     }
-    let starts = model.loads.iter().map(|l| if l.sweep.is_some() { 0. } else { l.pulse.start().max(0.) });
+    let starts = model.loads.iter().map(|l| if l.front.is_some() { 0. } else { l.pulse.start().max(0.) });
     starts.reduce(f64::min).unwrap_or(0.)
 }
 

@@ -79,7 +79,7 @@ pub fn uneven(sides: &[FreeField], model: &Model) -> Option<String> {
 
 /// What is only nearly so under a moving front.
 pub fn swept(sides: &[FreeField], loads: &[Load]) -> Option<String> {
-    let load = loads.iter().find(|load| load.sweep.is_some()).filter(|_| !sides.is_empty())?;
+    let load = loads.iter().find(|load| load.front.is_some()).filter(|_| !sides.is_empty())?;
     Some(format!(
         "the load on \"{}\" sweeps over it, but the ground beyond free-field sides is taken to move straight up and down, under \
          the pressure that reaches the side's top: a front much faster than P waves does nearly so, a slower one does not",
@@ -271,6 +271,6 @@ fn on_column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip, load:
             load.group
         )));
     }
-    let pulse = load.sweep.as_ref().map_or(load.pulse.clone(), |sweep| sweep.pulse(model.mesh.points[top]));
-    Ok(Some(Load { target, pulse, sweep: None, group: load.group.clone() }))
+    let pulse = load.front.as_ref().map_or(load.pulse.clone(), |sweep| sweep.pulse(model.mesh.points[top]));
+    Ok(Some(Load { target, pulse, front: None, group: load.group.clone() }))
 }

@@ -44,7 +44,7 @@ pub fn nothing_acts(model: &Model) -> bool {
 
 /// A load that is zero, or begins when all is over.
 fn never_acts(load: &Load, end: f64) -> Option<String> {
-    let first = load.sweep.as_ref().map_or(load.pulse.start(), |sweep| sweep.onset()[0]);
+    let first = load.front.as_ref().map_or(load.pulse.start(), |sweep| sweep.onset()[0]);
     let because = match load.pulse.is_zero() {
         true => "it is zero at all times".into(),
         false if first >= end => {

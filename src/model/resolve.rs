@@ -6,12 +6,12 @@ use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, 
 use super::free_field::{self, FreeField, free_fields};
 use super::initial::{Initial, initial};
 use super::mesh::Mesh;
+use super::moving_front::MovingFront;
 use super::number::short;
 use super::probes::{NodeProbe, probes};
 use super::quality;
 use super::sides::{Sides, solid_sides};
 use super::split::{self, Joint, Pair, Seam};
-use super::sweep::Sweep;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
@@ -79,7 +79,7 @@ pub struct Load {
     pub pulse: Pulse,
     pub target: Target,
     /// how it sweeps over its lines, if it does not act everywhere at once
-    pub sweep: Option<Sweep>,
+    pub front: Option<MovingFront>,
 }
 
 /// Where a load acts, per unit of its pulse.
@@ -286,14 +286,14 @@ fn loads(case: &Case, mesh: &Mesh, sides: &Sides) -> Result<Vec<Load>> {
         let (target, pulse) = match load {
             case::Load::Pressure(case::Pressure::Sweeping(front, clock)) => {
                 let lines = lines()?;
-                let sweep = Sweep::new(mesh, &lines, front, *clock)
+                let front = MovingFront::new(mesh, &lines, front, *clock)
                     .map_err(|e| Error::input(format!("load \"{name}\": {e}")))?;
-                let pulse = sweep.first_pulse();
+                let pulse = front.first_pulse();
                 return Ok(Load {
                     group: name.to_string(),
                     pulse,
                     target: Target::Pressure { lines },
-                    sweep: Some(sweep),
+                    front: Some(front),
                 });
             }
             case::Load::Pressure(case::Pressure::Simultaneous(pulse)) => (Target::Pressure { lines: lines()? }, pulse),
@@ -305,7 +305,7 @@ fn loads(case: &Case, mesh: &Mesh, sides: &Sides) -> Result<Vec<Load>> {
                 (Target::Force { nodes: mesh.nodes_of(group(0)?), direction: d.direction }, &d.pulse)
             }
         };
-        Ok(Load { group: name.to_string(), pulse: pulse.clone(), target, sweep: None })
+        Ok(Load { group: name.to_string(), pulse: pulse.clone(), target, front: None })
     };
     case.loads.iter().map(load).collect()
 }

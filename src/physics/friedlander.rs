@@ -24,9 +24,6 @@ pub fn decay(ratio: f64) -> Option<f64> {
             true => low = middle,
             false => high = middle,
         }
-        if middle == low && middle == high {
-            break;
-        }
     }
     Some((low + high) / 2.)
 }

@@ -184,7 +184,7 @@ impl Element {
             match line {
                 ElementLoad::Simultaneous(force) => force * load.pulse.at(state.time),
                 ElementLoad::Sweeping(line) => {
-                    let forces = load.sweep.iter().flat_map(|sweep| sweep.forces_on(*line, state.time));
+                    let forces = load.front.iter().flat_map(|front| front.forces_on(*line, state.time));
                     forces.fold(DVector::zeros(2 * self.nodes.len()), |sum, at_node| sum + self.on_nodes(&[at_node]))
                 }
             }
@@ -339,7 +339,7 @@ fn add_loads(elements: &mut [Element], model: &Model) {
     for (number, load) in model.loads.iter().enumerate() {
         for (line, forces) in assembly::nodal_forces(model, &load.target).iter().enumerate() {
             add(elements, forces, &|element, force| {
-                let share = match load.sweep {
+                let share = match load.front {
                     None => ElementLoad::Simultaneous(force),
                     Some(_) => ElementLoad::Sweeping(line),
                 };

@@ -5,8 +5,8 @@ use super::free_field::Column;
 use super::interface::{Interface, JointState};
 use super::unknowns::Unknowns;
 use crate::Result;
+use crate::model::moving_front::MovingFront;
 use crate::model::resolve::Model;
-use crate::model::sweep::Sweep;
 use crate::physics::pulse::Pulse;
 use crate::sparse::{Orders, Symbolic, Upper, multiply};
 use serde::Serialize;
@@ -41,7 +41,7 @@ pub struct System {
     /// spatial vector [N per unit of the pulse] and history
     loads: Vec<(Vec<f64>, Pulse)>,
     /// loads that do not act everywhere at once
-    sweeps: Vec<Sweep>,
+    fronts: Vec<MovingFront>,
 }
 
 /// K, M and C as every step reads them: the upper triangles' values.
@@ -103,7 +103,7 @@ impl System {
             reactions: vec![0.; unknowns.count],
             columns: columns(model, &unknowns, orders)?,
             loads: loads(model, &unknowns),
-            sweeps: fronts(model),
+            fronts: fronts(model),
             unknowns: unknowns.into(),
             stiffness: stiffness.into(),
             mass: mass.into(),
@@ -128,7 +128,7 @@ impl System {
             reactions: vec![0.; self.unknowns.count],
             columns: columns.into_iter().map(|c| c.with_damping(self.rayleigh)).collect(),
             loads: loads(model, &self.unknowns),
-            sweeps: fronts(model),
+            fronts: fronts(model),
         })
     }
 
@@ -166,7 +166,7 @@ impl System {
             let factor = pulse.at(time);
             f.iter_mut().zip(vector).for_each(|(f, r)| *f += factor * r);
         }
-        for (node, force) in self.sweeps.iter().flat_map(|sweep| sweep.forces(time)) {
+        for (node, force) in self.fronts.iter().flat_map(|front| front.forces(time)) {
             for axis in 0..2 {
                 self.unknowns.row(node, axis).iter().for_each(|&(i, sign)| f[i] += sign * force[axis]);
             }
@@ -213,12 +213,12 @@ fn interface(model: &Model, unknowns: &Unknowns) -> Interface {
 }
 
 fn loads(model: &Model, unknowns: &Unknowns) -> Vec<(Vec<f64>, Pulse)> {
-    let simultaneous = model.loads.iter().filter(|load| load.sweep.is_none());
+    let simultaneous = model.loads.iter().filter(|load| load.front.is_none());
     simultaneous.map(|load| (assembly::load(model, unknowns, load), load.pulse.clone())).collect()
 }
 
-fn fronts(model: &Model) -> Vec<Sweep> {
-    model.loads.iter().filter_map(|load| load.sweep.clone()).collect()
+fn fronts(model: &Model) -> Vec<MovingFront> {
+    model.loads.iter().filter_map(|load| load.front.clone()).collect()
 }
 
 fn columns(model: &Model, unknowns: &Unknowns, orders: &Orders) -> Result<Vec<Column>> {

@@ -91,17 +91,17 @@ fn one_sided(model: &Model, Rayleigh { alpha, beta }: Rayleigh) -> Vec<String> {
     spectra(model).into_iter().filter_map(warning).collect()
 }
 
-/// Where absorbing boundaries are asked for more than the first term of their damping in alpha / w can give: loads that push
-/// for longer than 1 / alpha.
+/// Where absorbing boundaries are asked for more than the first term of their damping in alpha / w can give: longer than 1 / alpha
+/// after the first load.
 pub fn beyond_the_boundaries(model: &Model, alpha: f64) -> Option<String> {
     let end = model.time.step * model.time.steps as f64;
-    let longest = model.loads.iter().map(|l| l.pulse.end().min(end) - l.pulse.start()).fold(0., f64::max);
-    (!model.absorbers.is_empty() && alpha * longest > 1.).then(|| {
+    let first = model.loads.iter().map(|l| l.pulse.start()).fold(f64::INFINITY, f64::min);
+    (!model.absorbers.is_empty() && alpha * (end - first) > 1.).then(|| {
         format!(
-            "boundaries: the ground beyond them is damped to first order in alpha t, and a load pushes for {} s, longer than \
-             1 / alpha = {} s: displacements drift by some per cent from then on; end the case before, take a smaller alpha, or \
-             damp by beta alone",
-            three_digits(longest),
+            "boundaries: the ground beyond them is damped to first order in alpha t, and the calculation goes on for {} s after the \
+             loads begin, longer than 1 / alpha = {} s: displacements drift by some per cent from then on; end it before, take a smaller \
+             alpha, or damp by beta alone",
+            three_digits(end - first),
             three_digits(1. / alpha)
         )
     })

@@ -1,8 +1,8 @@
 //! What `check` says of loads: their laws, their rise against the time step, their fronts against the ground's waves.
 
+use crate::model::moving_front::MovingFront;
 use crate::model::number::short;
 use crate::model::resolve::{Load, Model, Target};
-use crate::model::sweep::Sweep;
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
 
@@ -14,7 +14,7 @@ pub fn role(load: &Load) -> String {
         Target::BodyForce { .. } => ("body force", "N/m3"),
         Target::Force { .. } => ("force", "N/m"),
     };
-    let front = if load.sweep.is_some() { " behind a front, where it comes first" } else { "" };
+    let front = if load.front.is_some() { " behind a front, where it comes first" } else { "" };
     format!("load: {kind}{front}, {}", law(&load.pulse, unit))
 }
 
@@ -23,7 +23,7 @@ pub fn report(model: &Model) -> String {
     model
         .loads
         .iter()
-        .map(|load| rise(load, model.time.step) + &load.sweep.as_ref().map_or(String::new(), |s| front(s, model)))
+        .map(|load| rise(load, model.time.step) + &load.front.as_ref().map_or(String::new(), |s| front(s, model)))
         .collect()
 }
 
@@ -39,7 +39,7 @@ fn rise(load: &Load, step: f64) -> String {
 }
 
 /// The front's speed along its lines against the waves of every ground.
-fn front(sweep: &Sweep, model: &Model) -> String {
+fn front(sweep: &MovingFront, model: &Model) -> String {
     let ([slow, fast], [first, last]) = (sweep.trace_speeds(), sweep.onset());
     let [first, last] = [first, last].map(|t| short((1e9 * t).round() / 1e9)); // without the round-off of places
     if slow.is_infinite() {

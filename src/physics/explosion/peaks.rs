@@ -2,7 +2,7 @@
 //! Z = R / W^(1/3) [m/kg^(1/3)]; durations [ms/kg^(1/3)], impulses [kPa ms/kg^(1/3)].
 
 /// Standard atmosphere [kPa].
-const ATMOSPHERE: f64 = 101.325;
+const ATMOSPHERE: f64 = super::air::ATMOSPHERE / 1e3;
 /// 1 kgf/cm^2, exact [kPa]
 const KGF_CM2: f64 = 98.0665;
 const BAR: f64 = 100.;

@@ -12,9 +12,9 @@ use super::script::Script;
 use super::series::{self, Member, Series, Variant};
 use crate::model::arrival::{Returns, returns};
 use crate::model::case::{Analysis, Case, Geometry};
+use crate::model::moving_front::MovingFront;
 use crate::model::number::short;
 use crate::model::resolve::Model;
-use crate::model::sweep::Sweep;
 use crate::model::units::Time;
 use crate::results::file;
 use crate::{Error, Result};
@@ -198,7 +198,7 @@ impl<'a> Study<'a> {
         let mut request = self.series.request.clone();
         request.geo.extend(variant.geo.clone());
         let model = run::load(&request)?.model;
-        let origins = model.loads.iter().map(|l| l.sweep.as_ref().map(Sweep::origin)).collect();
+        let origins = model.loads.iter().map(|l| l.front.as_ref().map(MovingFront::origin)).collect();
         if let Some((row, _)) = from {
             refuse_shift(&row.origins, &origins, &model, size)?;
         }

@@ -7,9 +7,9 @@ use crate::results::plot::{Curve, Panel, svg};
 use crate::study::history::History;
 use serde_json::{Value, json};
 
-/// As many digits as it needs, at most three behind the point.
+/// At most three digits behind the point.
 pub fn short(x: f64) -> String {
-    format!("{}", (1e3 * x).round() / 1e3)
+    number::short((1e3 * x).round() / 1e3)
 }
 
 /// In per cent, three digits.

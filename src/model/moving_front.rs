@@ -13,7 +13,7 @@ use crate::physics::shape::Shape;
 use crate::{Error, Result};
 
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sweep {
+pub struct MovingFront {
     front: Front,
     /// time of the front that is t = 0 of the calculation [s]
     zero: f64,
@@ -50,9 +50,9 @@ struct Point {
 /// of places.
 const AT_ONCE: f64 = 1e-9;
 
-impl Sweep {
+impl MovingFront {
     /// Errors where a charge's formula does not hold at some point of the lines.
-    pub fn new(mesh: &Mesh, lines: &[Border], front: &Front, clock: Clock) -> Result<Sweep> {
+    pub fn new(mesh: &Mesh, lines: &[Border], front: &Front, clock: Clock) -> Result<MovingFront> {
         let mut parts = Vec::new();
         for (number, line) in lines.iter().enumerate() {
             let at: Vec<[f64; 2]> = line.nodes.iter().map(|&n| mesh.points[n]).collect();
@@ -66,14 +66,14 @@ impl Sweep {
         }
         let first = parts.iter().map(|p| front.arrival(p.place(p.span[0]))).fold(f64::INFINITY, f64::min);
         let zero = if clock == Clock::Arrival && first.is_finite() { first } else { 0. };
-        let mut sweep = Sweep { front: front.clone(), zero, parts: vec![] };
+        let mut moving = MovingFront { front: front.clone(), zero, parts: vec![] };
         let completed = |part: Part| Part {
-            begins: part.span.map(|r| sweep.begins(part.place(r))),
-            points: part.points(&sweep, part.span),
+            begins: part.span.map(|r| moving.begins(part.place(r))),
+            points: part.points(&moving, part.span),
             ..part
         };
-        sweep.parts = parts.into_iter().map(completed).collect();
-        Ok(sweep)
+        moving.parts = parts.into_iter().map(completed).collect();
+        Ok(moving)
     }
 
     /// When the front passes x [s].
@@ -167,7 +167,7 @@ impl Part {
     }
 
     /// Three Gauss points over a span: integral of N p n ds, the pressure pushing to the left, where the solid lies.
-    fn points(&self, sweep: &Sweep, [from, to]: [f64; 2]) -> Vec<Point> {
+    fn points(&self, moving: &MovingFront, [from, to]: [f64; 2]) -> Vec<Point> {
         let half = (to - from) / 2.;
         let point = |(g, weight): (f64, f64)| {
             let r = (from + to) / 2. + half * g;
@@ -176,7 +176,7 @@ impl Part {
             let share = weight * half.abs();
             let forces = functions.iter().map(|(n, _)| [-tangent[1] * n * share, tangent[0] * n * share]).collect();
             let x = self.place(r);
-            Point { arrival: sweep.arrival(x), pulse: sweep.front.pulse(x), forces }
+            Point { arrival: moving.arrival(x), pulse: moving.front.pulse(x), forces }
         };
         gauss_3().into_iter().map(point).collect()
     }
