@@ -387,6 +387,8 @@ fn what_stands_in_the_place_of_an_elimination_order_changes_no_digit() {
     fs::write(&orders, "something of the user's own").unwrap();
     assert!(run() == first && fs::read(&orders).unwrap() == b"something of the user's own");
     fs::remove_file(&orders).unwrap();
-    fs::create_dir(bench.path("block.part")).unwrap();
-    assert!(run() == first && !orders.exists(), "it could not be written");
+    fs::create_dir(&orders).unwrap();
+    assert!(run() == first && orders.is_dir(), "it could not be written");
+    let left = fs::read_dir(&bench.folder).unwrap().flatten().map(|f| f.file_name().into_string().unwrap());
+    assert_eq!(left.filter(|name| name.ends_with(".part")).count(), 0, "nothing is left of what was not written");
 }
