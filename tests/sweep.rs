@@ -92,8 +92,10 @@ fn the_table_has_a_row_a_run() {
 #[test]
 fn a_bad_plan_is_refused_before_anything_runs() {
     let bench = Bench::new("sweep-bad");
-    let rows: [(&str, &[&str]); 7] = [
-        ("{", &["bad.json", "line 1"]),
+    let rows: [(&str, &[&str]); 9] = [
+        ("{", &["bad.json", "line 1", "interfaces.interface_left.friction"]),
+        (r#"{"case": "block.json", "geo": {"crown": [4, 4.0]}}"#, &["geo.crown", "4.0 stands twice"]),
+        (r#"{"case": "block.json", "set": {"time.step": ["1 ms", "1 ms"]}}"#, &["set.time.step", "stands twice"]),
         (r#"{"set": {}}"#, &["bad.json", "case"]),
         (r#"{"case": "block.json"}"#, &["bad.json", "vary something"]),
         (r#"{"case": "block.json", "set": {"time.step": "1 ms"}}"#, &["set.time.step", "a list"]),
@@ -110,4 +112,18 @@ fn a_bad_plan_is_refused_before_anything_runs() {
         }
         assert!(!bench.path("output").exists(), "{plan}: a refused sweep must not write");
     }
+}
+
+/// As on a disk that is full after the first run: the second one's folder cannot be made.
+#[test]
+fn a_sweep_that_cannot_go_on_says_what_is_done() {
+    let bench = Bench::new("sweep-full");
+    bench.write("plan.json", r#"{ "case": "block.json", "set": { "damping.ratio": [0.02, 0.05] } }"#);
+    fs::create_dir_all(bench.path("output/plan")).unwrap();
+    bench.write("output/plan/ratio0.05", "in the way");
+    let outcome = bench.run_line("sweep plan.json");
+    assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("1 of 2 runs are done and stay in output/plan"), "{}", outcome.stderr);
+    fs::remove_file(bench.path("output/plan/ratio0.05")).unwrap();
+    assert!(bench.run_line("sweep plan.json").stderr.contains("2 runs, 1 done before"));
 }

@@ -73,7 +73,8 @@ pub fn command(request: &SweepRequest) -> Result<String> {
         if run::interrupted() {
             break;
         }
-        for (job, error) in together::solve(group, plan.frames)? {
+        let solved = together::solve(group, plan.frames).map_err(|why| kept(&why, &variants, &folder))?;
+        for (job, error) in solved {
             screen.say(&format!("{}: {}", job.variant.name, error.as_ref().map_or("done".into(), Error::to_string)));
             failures.extend(error.map(|e| (job.variant.name, e)));
         }
@@ -92,6 +93,16 @@ pub fn command(request: &SweepRequest) -> Result<String> {
             folder.display()
         ))),
     }
+}
+
+/// A sweep that cannot go on, and what of it is there.
+fn kept(why: &Error, variants: &[Variant], folder: &Path) -> Error {
+    let done = table::rows(variants, folder).iter().filter(|row| row.iter().any(|(_, cell)| cell == "done")).count();
+    Error::input(format!(
+        "{why}; {done} of {} runs are done and stay in {}: the same command goes on with the others",
+        variants.len(),
+        folder.display()
+    ))
 }
 
 /// A run and its model, and what it must share with others to march with them.

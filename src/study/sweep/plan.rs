@@ -50,12 +50,17 @@ impl Plan {
         let plan: Plan = serde_json::from_str(&text).map_err(|e| {
             Error::input(format!(
                 "{place}: {e}; a plan looks like {{ \"case\": \"twin_pipes.json\", \"set\": {{ \
-                 \"interfaces.pipe_left.friction\": [0.2, 0.4] }}, \"geo\": {{ \"spacing\": [1.8, 2.4] }} }}"
+                 \"interfaces.interface_left.friction\": [0.2, 0.4] }}, \"geo\": {{ \"spacing\": [1.8, 2.4] }} }}"
             ))
         })?;
         for (kind, name, values) in plan.varied() {
             if values.as_array().is_none_or(Vec::is_empty) {
                 return Err(Error::input(format!("{place}: {kind}.{name}: write a list of values, as in [0.2, 0.4]")));
+            }
+            if let Some(value) = twice(values.as_array().map_or(&[], Vec::as_slice)) {
+                return Err(Error::input(format!(
+                    "{place}: {kind}.{name}: {value} stands twice in its list, and the same case would run twice"
+                )));
             }
         }
         let runs = plan.varied().fold(1usize, |n, (.., v)| n.saturating_mul(v.as_array().map_or(1, Vec::len)));
@@ -108,6 +113,12 @@ impl Variant {
         variant.values.push((name.into(), value.clone()));
         Ok(variant)
     }
+}
+
+/// The first value that an earlier one equals; 4 and 4.0 are equal.
+fn twice(values: &[Value]) -> Option<&Value> {
+    let equal = |a: &Value, b: &Value| a == b || (a.is_number() && a.as_f64() == b.as_f64());
+    values.iter().enumerate().find(|(i, value)| values[..*i].iter().any(|v| equal(v, value))).map(|(_, value)| value)
 }
 
 /// A value as part of a folder's name: numbers and short words as they are, all else by its place in the list.
