@@ -99,19 +99,19 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct BlastArguments {
     /// Mass of the charge, as "500 kg"
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     charge: String,
     /// Distance along the ground, as "20 m"
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     standoff: Option<String>,
-    /// Height of the burst above the ground
-    #[arg(long)]
+    /// Height of the burst above the ground, as "10 m"
+    #[arg(long, allow_hyphen_values = true)]
     height: Option<String>,
     /// tnt, anfo, composition_b, c4, h6, minol, octol, petn, pentolite, tetryl, tritonal [default: tnt]
     #[arg(long)]
     explosive: Option<String>,
     /// Mass of TNT that a unit mass of the explosive equals [default: the explosive's]
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     equivalence: Option<String>,
     /// kingery_bulmash, swisdak, kinney_graham, sadovsky, sadovsky_manuals, brode, henrych, mills, newmark_hansen
     /// [default: kingery_bulmash]
@@ -126,7 +126,7 @@ pub struct BlastArguments {
     /// Its form: friedlander, tangent, equal_impulse
     #[arg(long, default_value = "friedlander")]
     form: String,
-    /// Write the curve: FILE.csv, which the law "table" reads, or FILE.svg
+    /// Write the curve, its points where it bends: FILE.csv, which the law "table" reads, or FILE.svg
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Print JSON, in SI
@@ -157,10 +157,11 @@ pub struct CaseArguments {
     /// The case, a .json file
     #[arg(value_name = "CASE.json", default_value = "geo/twin_pipes.json")]
     case: PathBuf,
-    /// Give a constant of the .geo script another value
+    /// Give a constant of the .geo script another value; once for each: --geo a=1 --geo b=2
     #[arg(long = "geo", value_name = "NAME=VALUE")]
     geo: Vec<String>,
-    /// Give a key of the case another value: time.step="0.2 ms"
+    /// Give a key of the case another value, once for each key: --set time.step="0.2 ms" --set loads.0.top.pressure.peak=1e5;
+    /// a number counts entries of a list from 0, null takes a key out
     #[arg(long = "set", value_name = "PATH=VALUE")]
     sets: Vec<String>,
     /// Use this mesh, whatever the case says
@@ -237,12 +238,15 @@ fn constants(texts: &[String]) -> Result<BTreeMap<String, f64>> {
         let (name, value) = text.split_once('=')?;
         value.trim().parse().ok().filter(|v: &f64| v.is_finite()).map(|v| (name.trim().to_string(), v))
     };
-    texts
-        .iter()
-        .map(|t| {
-            constant(t).ok_or_else(|| Error::input(format!("--geo {t}: write NAME=NUMBER, as in --geo spacing=3")))
-        })
-        .collect()
+    let mut constants = BTreeMap::new();
+    for text in texts {
+        let (name, value) = constant(text)
+            .ok_or_else(|| Error::input(format!("--geo {text}: write NAME=NUMBER, as in --geo spacing=3")))?;
+        if constants.insert(name.clone(), value).is_some() {
+            return Err(Error::input(format!("--geo gives {name} twice; one of the two would be lost: leave it out")));
+        }
+    }
+    Ok(constants)
 }
 
 /// Does what was asked; what it returns goes to stdout.

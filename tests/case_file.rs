@@ -165,16 +165,20 @@ fn a_table_in_a_file_lies_beside_the_case_and_becomes_part_of_what_was_calculate
         assert_eq!(case.json()["loads"]["surface"]["pressure"]["values"], json!([0.0, 5e4, 0.0]));
     }
     for (table, words) in [
-        ("0,0\n1,x\n", "p.csv, line 2: \"1,x\" is not a time [s] and a value [SI]"),
+        ("0,0\n1,x\n", "p.csv, line 2: \"x\" is no number"),
+        ("0,0\n10\n", "p.csv, line 2: \"10\" has one column"),
         ("0,0\n1,2,3\n", "p.csv, line 2"),
         ("0,0\n1,nan\n", "p.csv, line 2"),
+        ("# in [ms], [kPa]\nt,p\n0,0\n1,1\n", "p.csv, line 1: these units are in a comment"),
+        ("ms,kPa\n0,0\n1,1\n", "p.csv, line 1: its heading is"),
+        ("t [ms],p\n0,0\n1,1\n", "unit in square brackets to both columns"),
         ("0,0\n", "at least two"),
         ("", "at least two"),
         ("0,0\n1,1\n1,2\n", "must ascend"),
         ("-1,0\n1,1\n", "from 0 or later"),
     ] {
         let sentence = read_with(table).unwrap_err().to_string();
-        assert!(sentence.contains(words) && sentence.contains("c.json: loads"), "{sentence}");
+        assert!(sentence.contains(words) && sentence.contains("c.json: loads.surface.pressure: "), "{sentence}");
     }
     std::fs::remove_file(folder.join("p.csv")).unwrap();
     let sentence = Case::read(&case, &[]).unwrap_err().to_string();
@@ -226,7 +230,7 @@ fn every_impossible_value_is_a_sentence_with_file_path_value_and_range() {
         ("damping.ratio=1", "damping.ratio", "at least 0 and less than 1"),
         ("damping.modes=[1,1]", "damping", "two different numbers counted from 1, and is [1, 1]"),
         ("damping.modes=[0,1]", "damping", "two different numbers counted from 1"),
-        ("damping.modes=[1]", "damping.modes", "a list of 2"),
+        ("damping.modes=[1]", "damping.modes", "a list of two"),
         ("damping.alpha=5", "damping", "either \"ratio\" with \"modes\", or both \"alpha\" and \"beta\""),
         ("loads.surface.pressure.duration=0", "loads.surface.pressure.duration", "greater than 0"),
         ("loads.surface.pressure.peak=1 kg", "loads.surface.pressure.peak", "is not a pressure"),

@@ -57,6 +57,13 @@ fn a_bad_case_file_is_refused_with_its_place() {
             ("negative density", "block.json --set materials.body.density=-1", &["materials.body.density", "-1", "0"]),
             ("nu = 0.5", "block.json --set materials.body.poisson=0.5", &["materials.body.poisson", "less than 0.5"]),
             ("nu = -1", "block.json --set materials.body.poisson=-1", &["materials.body.poisson", "greater than -1"]),
+            (
+                "one key twice",
+                "block.json --set time.step=1ms --set time.step=2ms",
+                &["--set gives time.step twice", "leave it out"],
+            ),
+            ("one constant twice", "block.json --geo a=1 --geo a=2", &["--geo gives a twice"]),
+            ("a key's value that is no JSON", "block.json --set damping={ratio:0.1}", &["no JSON, at character 2"]),
             ("zero time step", "block.json --set time.step=0", &["time.step", "greater than 0"]),
             ("negative time step", "block.json --set time.step=-1ms", &["time.step", "greater than 0"]),
             ("end before the first step", "block.json --set time.end=0.1ms", &["time.end", "at least one step"]),

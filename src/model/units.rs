@@ -23,6 +23,14 @@ macro_rules! quantity {
         impl $name {
             const UNITS: Units = $units;
 
+            /// Value in SI of one `unit`; the error lists the units there are.
+            pub fn factor(unit: &str) -> std::result::Result<f64, String> {
+                factor(unit, Self::UNITS).ok_or_else(|| {
+                    let names: Vec<_> = Self::UNITS.iter().map(|(name, _)| *name).collect();
+                    format!("\"{unit}\" is no unit of {}; there are: {}", $noun, names.join(", "))
+                })
+            }
+
             /// Reads `"100 kPa"`-like text; without a unit the number is in SI.
             pub fn parse(text: &str) -> Result<Self> {
                 parse(text, $noun, Self::UNITS).map(Self).map_err(Error::Input)
@@ -152,15 +160,13 @@ fn parse(text: &str, noun: &str, units: Units) -> std::result::Result<f64, Strin
         .ok_or_else(|| refusal(&format!("{text:?}"), noun, units))?;
     let factor = match unit {
         "" => 1.0,
-        _ => {
-            units
-                .iter()
-                .find(|(name, _)| plain(name) == plain(unit))
-                .ok_or_else(|| refusal(&format!("{text:?}"), noun, units))?
-                .1
-        }
+        _ => factor(unit, units).ok_or_else(|| refusal(&format!("{text:?}"), noun, units))?,
     };
     finite(number * factor, noun)
+}
+
+fn factor(unit: &str, units: Units) -> Option<f64> {
+    units.iter().find(|(name, _)| plain(name) == plain(unit)).map(|(_, factor)| *factor)
 }
 
 fn finite(value: f64, noun: &str) -> std::result::Result<f64, String> {

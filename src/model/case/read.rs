@@ -17,6 +17,9 @@ impl Case {
         refuse_other_kinds(path)?;
         let text = std::fs::read_to_string(path).map_err(|why| unreadable(path, &why))?;
         let json = parse(&text).map_err(|why| Error::input(format!("{file}, {why}")))?;
+        if let Some(sentence) = set::twice(sets) {
+            return Err(Error::Input(sentence));
+        }
         let written = json.clone();
         let json = sets.iter().try_fold(json, |json, setting| set::set(json, setting)).map_err(Error::Input)?;
         let origin = match sets {
@@ -64,7 +67,7 @@ fn from_json(json: Value, folder: &Path) -> std::result::Result<Case, String> {
 
 fn with_tables(mut json: Value, folder: &Path) -> std::result::Result<Value, String> {
     if let Some(loads) = json.get_mut("loads") {
-        *loads = table::inlined(loads.take(), folder).map_err(|why| format!("loads: {why}"))?;
+        *loads = table::inlined(loads.take(), folder)?;
     }
     Ok(json)
 }

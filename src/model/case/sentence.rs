@@ -45,8 +45,8 @@ fn plain_types(message: &str) -> String {
         "a sequence" => "a list",
         "a boolean" => "true or false",
         "path string" => "a path",
-        "an array of length 2" => "a list of 2",
-        "fewer elements in array" => "a shorter list",
+        // every list of fixed length in a case has two entries: x and y, or two modes
+        "an array of length 2" | "fewer elements in array" => "a list of two",
         other => other,
     };
     let found = match found {
@@ -76,6 +76,15 @@ mod tests {
             assert_eq!(nearest(word, known), expected, "{word}");
         }
         assert_eq!(nearest("x", []), None);
+    }
+
+    #[test]
+    fn a_list_of_another_length_is_told_how_long_it_must_be() {
+        let read = |text: &str| serde_json::from_value::<[f64; 2]>(serde_json::from_str(text).unwrap()).unwrap_err();
+        for (text, length) in [("[1, 0, 0]", 3), ("[1]", 1), ("[]", 0)] {
+            let sentence = from_serde(&read(text).to_string());
+            assert_eq!(sentence, format!("a list of {length} stands where a list of two is expected"));
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use super::duplicate::Unique;
 use super::nearest;
 
 /// A path this deep names nothing in a case.
@@ -9,8 +10,8 @@ const DEEPEST: usize = 32;
 
 /// `json` with the value at a dotted path replaced; missing objects on the way are made.
 ///
-/// `loads.surface.pressure.peak=200 kPa`, `damping.modes.1=3`, `damping=null`: VALUE is JSON if it reads as such, else
-/// a string; null takes the key out. The error is a sentence that names the setting.
+/// `loads.surface.pressure.peak=200 kPa`, `damping.modes.1=3`, `damping=null`; in a list of loads `loads.0.surface...`. VALUE
+/// is JSON if it reads as such, and must be where it begins with a bracket; else a string. null takes the key out. The error is a sentence that names the setting.
 pub fn set(json: Value, setting: &str) -> Result<Value, String> {
     let (path, text) = setting
         .split_once('=')
@@ -21,8 +22,27 @@ pub fn set(json: Value, setting: &str) -> Result<Value, String> {
             "--set {setting:?}: {path:?} is not a path; write keys with dots between, as in time.step"
         ));
     }
-    let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.trim().into()));
+    let value = match serde_json::from_str(text) {
+        Ok(Unique(value)) => value,
+        Err(why) if text.trim_start().starts_with(['{', '[']) => {
+            let message = why.to_string();
+            let what = message.split(" at line ").next().unwrap_or_default();
+            return Err(format!(
+                "--set {setting:?}: its value is no JSON, at character {}: {what}; keys and texts stand in double quotes",
+                why.column()
+            ));
+        }
+        Err(_) => Value::String(text.trim().into()),
+    };
     replaced(json, &keys, value).map_err(|why| format!("--set {setting:?}: {why}"))
+}
+
+/// The key that two settings give a value, of which one would be lost without a word.
+pub fn twice(settings: &[String]) -> Option<String> {
+    let path = |setting: &String| setting.split_once('=').map(|(path, _)| path.replace(char::is_whitespace, ""));
+    let later = |i: usize| path(&settings[i]).filter(|of| settings[..i].iter().any(|s| path(s).as_ref() == Some(of)));
+    let key = (0..settings.len()).find_map(later)?;
+    Some(format!("--set gives {key} twice; one of the two would be lost: leave it out"))
 }
 
 /// Where a setting reaches into a group that the file does not have, which groups it has: `materials.layer_9.young=1`.
@@ -110,6 +130,9 @@ mod tests {
             ("a..b=1", "is not a path"),
             ("a.1=1", "\"1\" is not a place in a list of 1"),
             ("a.x=1", "\"x\" is not a place in a list of 1"),
+            ("b={c:1}", "no JSON, at character 2"),
+            ("b={\"c\":1e400}", "no JSON, at character"),
+            ("b={\"c\":1,\"c\":2}", "stands twice"),
             ("b.c=1", "there is no \"c\" inside \"text\""),
         ] {
             let sentence = set(old.clone(), setting).unwrap_err();
