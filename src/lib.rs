@@ -9,6 +9,7 @@
 
 pub mod error;
 pub mod model;
+pub mod number;
 pub mod physics;
 pub mod results;
 pub mod solve;

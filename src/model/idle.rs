@@ -3,8 +3,8 @@
 use super::case::{Analysis, Case, Quad4};
 use super::initial::Initial;
 use super::mesh::Shape;
-use super::number::short;
 use super::resolve::{Load, Model};
+use crate::number::short;
 
 /// A sentence for each.
 pub fn idle(case: &Case, model: &Model) -> Vec<String> {

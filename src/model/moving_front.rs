@@ -6,6 +6,7 @@
 use super::boundary::Border;
 use super::case::Clock;
 use super::mesh::Mesh;
+use crate::number::short_to;
 use crate::physics::element::gauss_3;
 use crate::physics::front::{Front, distance};
 use crate::physics::pulse::Pulse;
@@ -74,6 +75,11 @@ impl MovingFront {
         };
         moving.parts = parts.into_iter().map(completed).collect();
         Ok(moving)
+    }
+
+    /// What moves.
+    pub fn front(&self) -> &Front {
+        &self.front
     }
 
     /// When the front passes x [s].
@@ -202,9 +208,9 @@ fn place(shape: Shape, at: &[[f64; 2]], r: f64) -> [f64; 2] {
 /// A charge's formula must hold at every distance.
 fn check(front: &Front, x: [f64; 2]) -> Result<()> {
     match front {
-        Front::Charge { explosion, at, .. } => {
-            explosion.check(distance(x, *at)).map_err(|e| Error::input(format!("at ({:.4}, {:.4}) m: {e}", x[0], x[1])))
-        }
+        Front::Charge { explosion, at, .. } => explosion.check(distance(x, *at)).map_err(|e| {
+            Error::input(format!("at ({}, {}) m of the curve: {e}", short_to(6, x[0]), short_to(6, x[1])))
+        }),
         Front::Plane { .. } | Front::Circle { .. } => Ok(()),
     }
 }

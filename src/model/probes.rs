@@ -2,8 +2,8 @@
 
 use super::case::{Case, Probe};
 use super::mesh::Mesh;
-use super::number::short;
 use super::quality;
+use crate::number::short;
 use crate::{Error, Result};
 
 /// A node whose motion is written at every step.

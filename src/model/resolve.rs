@@ -1,17 +1,19 @@
 //! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
 
 use super::absorbing::{self, Absorber, absorbers};
-use super::boundary::{Border, border};
-use super::case::{self, Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
+use super::boundary::Border;
+use super::case::{Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
 use super::free_field::{self, FreeField, free_fields};
 use super::initial::{Initial, initial};
+use super::loads::loads;
 use super::mesh::Mesh;
 use super::moving_front::MovingFront;
-use super::number::short;
 use super::probes::{NodeProbe, probes};
 use super::quality;
-use super::sides::{Sides, solid_sides};
+use super::sampled::unseen;
+use super::sides::solid_sides;
 use super::split::{self, Joint, Pair, Seam};
+use crate::number::short;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
@@ -117,8 +119,12 @@ impl Model {
             .collect::<Result<_>>()?;
         warnings.extend(unused_groups(case, &mesh));
         let sides = solid_sides(&mesh);
-        let loads = loads(case, &mesh, &sides)?;
+        let loads = loads(case, &mesh, &sides, &mut warnings)?;
         let material = |face: usize| materials[material_of[face].expect("every face has a material by now")].1;
+        let time = time_grid(case, &mut warnings)?;
+        if case.analysis == Analysis::Dynamic {
+            warnings.extend(loads.iter().filter_map(|load| unseen(load, &time)));
+        }
         let model = Model {
             fixed: supports(case, &mesh)?,
             absorbers: absorbers(case, &mesh, &sides, material, &loads)?,
@@ -136,7 +142,7 @@ impl Model {
             integrator: case.time.integrator(),
             newton: case.newton,
             start: case.time.start,
-            time: time_grid(case, &mut warnings)?,
+            time,
             materials,
             material_of,
             seams,
@@ -275,39 +281,6 @@ fn supports(case: &Case, mesh: &Mesh) -> Result<Vec<[bool; 2]>> {
         }
     }
     Ok(fixed)
-}
-
-fn loads(case: &Case, mesh: &Mesh, sides: &Sides) -> Result<Vec<Load>> {
-    let load = |(name, load): (&str, &case::Load)| {
-        let group = |dimension| mesh.group_of(name, dimension, "load");
-        let lines = || -> Result<Vec<Border>> {
-            Ok(border(mesh, group(1)?, sides)?.into_iter().map(|(line, _)| line).collect())
-        };
-        let (target, pulse) = match load {
-            case::Load::Pressure(case::Pressure::Sweeping(front, clock)) => {
-                let lines = lines()?;
-                let front = MovingFront::new(mesh, &lines, front, *clock)
-                    .map_err(|e| Error::input(format!("load \"{name}\": {e}")))?;
-                let pulse = front.first_pulse();
-                return Ok(Load {
-                    group: name.to_string(),
-                    pulse,
-                    target: Target::Pressure { lines },
-                    front: Some(front),
-                });
-            }
-            case::Load::Pressure(case::Pressure::Simultaneous(pulse)) => (Target::Pressure { lines: lines()? }, pulse),
-            case::Load::Traction(d) => (Target::Traction { lines: lines()?, direction: d.direction }, &d.pulse),
-            case::Load::BodyForce(d) => {
-                (Target::BodyForce { cells: group(2)?.cells.clone(), direction: d.direction }, &d.pulse)
-            }
-            case::Load::Force(d) => {
-                (Target::Force { nodes: mesh.nodes_of(group(0)?), direction: d.direction }, &d.pulse)
-            }
-        };
-        Ok(Load { group: name.to_string(), pulse: pulse.clone(), target, front: None })
-    };
-    case.loads.iter().map(load).collect()
 }
 
 /// More steps than any machine has time for.

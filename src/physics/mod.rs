@@ -7,5 +7,6 @@ pub mod friedlander;
 pub mod front;
 pub mod joint;
 pub mod material;
+pub mod polyline;
 pub mod pulse;
 pub mod shape;

@@ -1,5 +1,7 @@
 //! A pressure over time drawn in characters, as CSV, as SVG.
 
+use crate::number::fixed;
+
 /// Columns and rows of the drawing in characters.
 const SIZE: [usize; 2] = [64, 14];
 
@@ -22,7 +24,7 @@ pub fn text(curve: &[[f64; 2]]) -> String {
         }
     }
     let label = |row: usize| match row {
-        0 => format!("{:>10.4}", top / 1e3),
+        0 => format!("{:>10}", fixed(4, top / 1e3)),
         row if row == rows - 1 => format!("{:>10}", 0),
         _ => " ".repeat(10),
     };
@@ -30,8 +32,14 @@ pub fn text(curve: &[[f64; 2]]) -> String {
         format!("{} |{}", label(row), cells.iter().collect::<String>()).trim_end().to_string() + "\n"
     };
     let drawn: String = cells.iter().enumerate().map(line).collect();
-    let axis =
-        format!("{:>10} +{}\n{:>12}0{:>width$.4} ms\n", "", "-".repeat(columns), "", 1e3 * end, width = columns - 1);
+    let axis = format!(
+        "{:>10} +{}\n{:>12}0{:>width$} ms\n",
+        "",
+        "-".repeat(columns),
+        "",
+        fixed(4, 1e3 * end),
+        width = columns - 1
+    );
     format!("{:>10}\n{drawn}{axis}", "kPa")
 }
 
@@ -44,9 +52,9 @@ pub fn svg(curve: &[[f64; 2]]) -> String {
         format!("<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{words}</text>\n")
     };
     let labels = [
-        label(72., 45., "end", &format!("{:.1} kPa", top / 1e3)),
+        label(72., 45., "end", &format!("{} kPa", fixed(1, top / 1e3))),
         label(72., 345., "end", "0"),
-        label(600., 362., "end", &format!("{:.2} ms", 1e3 * end)),
+        label(600., 362., "end", &format!("{} ms", fixed(2, 1e3 * end))),
         label(80., 362., "middle", "0"),
         label(340., 385., "middle", "time since the arrival"),
     ];

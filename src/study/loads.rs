@@ -1,8 +1,9 @@
 //! What `check` says of loads: their laws, their rise against the time step, their fronts against the ground's waves.
 
 use crate::model::moving_front::MovingFront;
-use crate::model::number::short;
 use crate::model::resolve::{Load, Model, Target};
+use crate::number::{fixed, short, short_to};
+use crate::physics::front::Front;
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
 
@@ -14,8 +15,14 @@ pub fn role(load: &Load) -> String {
         Target::BodyForce { .. } => ("body force", "N/m3"),
         Target::Force { .. } => ("force", "N/m"),
     };
-    let front = if load.front.is_some() { " behind a front, where it comes first" } else { "" };
-    format!("load: {kind}{front}, {}", law(&load.pulse, unit))
+    let front = match load.front.as_ref().map(MovingFront::front) {
+        None => ": ".into(),
+        Some(Front::Plane { speed, .. } | Front::Circle { speed, .. }) => {
+            format!(" behind a front at {} m/s, at each point from its passage on: ", short_to(5, *speed))
+        }
+        Some(Front::Charge { .. }) => " behind the wave of a charge, at the point it strikes first: ".into(),
+    };
+    format!("load: {kind}{front}{}", law(&load.pulse, unit))
 }
 
 /// For each load its rise, and where it sweeps its front.
@@ -45,10 +52,11 @@ fn front(sweep: &MovingFront, model: &Model) -> String {
     if slow.is_infinite() {
         return format!("    its front reaches all of the curve at once, at {first} s\n");
     }
+    let [least, most] = [slow, fast].map(|u| fixed(1, u));
     let speeds = match fast {
-        fast if fast - slow < 1e-6 * slow => format!("at {slow:.1} m/s"),
-        fast if fast.is_finite() => format!("at {slow:.1} to {fast:.1} m/s"),
-        _ => format!("at {slow:.1} m/s and more, a part of it at once"),
+        fast if fast - slow < 1e-6 * slow => format!("at {least} m/s"),
+        fast if fast.is_finite() => format!("at {least} to {most} m/s"),
+        _ => format!("at {least} m/s and more, a part of it at once"),
     };
     let mut text = format!("    its front runs along the surface {speeds}, pressing from {first} to {last} s on\n");
     let end = model.time.step * model.time.steps as f64;
@@ -111,7 +119,9 @@ pub fn law(pulse: &Pulse, unit: &str) -> String {
             format!("table of {} times, largest value {}", times.len(), value(largest))
         }
         Pulse::Delayed { law: delayed, start, rise } => {
-            format!("{}, later by {} and with a rise of {}", law(delayed, unit), time(*start), time(*rise))
+            let start = if *start > 0. { format!(", later by {}", time(*start)) } else { String::new() };
+            let rise = if *rise > 0. { format!(", after a rise of {}", time(*rise)) } else { String::new() };
+            format!("{}{start}{rise}", law(delayed, unit))
         }
     }
 }

@@ -32,24 +32,25 @@ pub struct ExplosionKeys {
     /// Whose formula. Default: "kingery_bulmash".
     #[serde(default)]
     formula: Formula,
-    /// Default: "spherical" where there is a height, else "hemispherical".
+    /// On the ground ("hemispherical") or in the air ("spherical"). Default: "spherical" where there is a `height`, else "hemispherical"; with `at` it must be given.
     burst: Option<Burst>,
     /// Which pressure acts: "incident" along the ground, "reflected" where the wave meets it at right angles.
     wave: Wave,
     /// The pulse's form. Default: "friedlander".
     #[serde(default)]
     form: Form,
-    /// What t = 0 is, with `at`. Default: "arrival".
+    /// What t = 0 is, with `at`: the wave reaches the curve ("arrival") or the charge explodes ("detonation"). Default: "arrival".
     clock: Option<Clock>,
 }
 
 /// A charge at a distance from all of the curve, or at a place.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Blast {
-    /// the distance is in the formula's range [m]
+    /// the distance is in the formula's range [m]; the note says what does not fit
     At {
         explosion: Explosion,
         distance: f64,
+        note: Option<String>,
     },
     Placed {
         explosion: Explosion,
@@ -61,32 +62,43 @@ pub enum Blast {
 impl ExplosionKeys {
     /// Errors where the place is not clear, or out of the formula's range.
     pub fn blast(&self) -> Result<Blast, String> {
-        let height = self.height.map_or(0.0, f64::from);
-        let burst = match (self.burst, self.at) {
-            (Some(burst), _) => burst,
-            (None, Some(_)) => {
-                return Err("a charge \"at\" a point needs \"burst\": \"hemispherical\" or \"spherical\"".into());
-            }
-            (None, None) if height > 0.0 => Burst::Spherical,
-            (None, None) => Burst::Hemispherical,
-        };
-        let tnt = self.charge.0 * self.equivalence.unwrap_or(self.explosive.equivalence());
-        let explosion = Explosion { tnt, formula: self.formula, burst, wave: self.wave, form: self.form };
-        match (self.at, self.standoff, self.height) {
-            (Some(at), None, None) => {
-                Ok(Blast::Placed { explosion, at: at.map(f64::from), clock: self.clock.unwrap_or_default() })
-            }
-            (None, None, None) => {
+        match (self.at, self.standoff.or(self.height)) {
+            (Some(at), None) => self.placed(at),
+            (None, Some(_)) => self.at_a_distance(),
+            (None, None) => {
                 Err("an explosion needs \"standoff\", \"height\" or both, or a point \"at\" which it is".into())
             }
-            (None, standoff, _) if self.clock.is_none() => {
-                let distance = standoff.map_or(0.0, f64::from).hypot(height);
-                explosion.check(distance).map_err(|e| e.to_string())?;
-                Ok(Blast::At { explosion, distance })
+            (Some(_), Some(_)) => {
+                Err("an explosion has either a point \"at\" which it is, or \"standoff\" and \"height\", \
+                                       and here are both: leave one out"
+                    .into())
             }
-            (None, ..) => Err("\"clock\" is for a charge \"at\" a point; elsewhere t = 0 is the arrival".into()),
-            _ => Err("an explosion has either a point \"at\" which it is, or \"standoff\" and \"height\"".into()),
         }
+    }
+
+    fn placed(&self, at: [Length; 2]) -> Result<Blast, String> {
+        let burst = self.burst.ok_or("a charge \"at\" a point needs \"burst\": \"hemispherical\" or \"spherical\"")?;
+        let clock = self.clock.unwrap_or_default();
+        Ok(Blast::Placed { explosion: self.explosion(burst), at: at.map(f64::from), clock })
+    }
+
+    fn at_a_distance(&self) -> Result<Blast, String> {
+        if self.clock.is_some() {
+            return Err("\"clock\" is for a charge \"at\" a point; elsewhere t = 0 is the arrival".into());
+        }
+        let [standoff, height] = [self.standoff, self.height].map(|length| length.map_or(0.0, f64::from));
+        let default = if height > 0.0 { Burst::Spherical } else { Burst::Hemispherical };
+        let explosion = self.explosion(self.burst.unwrap_or(default));
+        let distance = standoff.hypot(height);
+        explosion.check(distance).map_err(|e| e.to_string())?;
+        let angle = standoff.atan2(height).to_degrees();
+        let note = if height > 0.0 { explosion.misfit(height, [angle; 2]) } else { None };
+        Ok(Blast::At { explosion, distance, note })
+    }
+
+    fn explosion(&self, burst: Burst) -> Explosion {
+        let tnt = self.charge.0 * self.equivalence.unwrap_or(self.explosive.equivalence());
+        Explosion { tnt, formula: self.formula, burst, wave: self.wave, form: self.form }
     }
 }
 
@@ -94,7 +106,7 @@ impl Blast {
     /// Speed of the front where the distance is known [m/s].
     pub fn front_speed(&self) -> f64 {
         match self {
-            Blast::At { explosion, distance } => explosion.parameters(*distance).front_speed,
+            Blast::At { explosion, distance, .. } => explosion.parameters(*distance).front_speed,
             Blast::Placed { .. } => f64::NAN,
         }
     }

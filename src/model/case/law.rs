@@ -46,25 +46,25 @@ pub struct LawKeys<Q> {
     /// Time until zero [s], greater than 0; of the positive phase (law "friedlander"), of the rise (law "ramp").
     #[serde(default, deserialize_with = "range::optional_positive")]
     duration: Option<Time>,
-    /// Decay b [-], greater than -1 (law "friedlander", or `impulse`).
+    /// Decay b [-], greater than -1, of p = peak (1 - t/duration) exp(-b t/duration) (law "friedlander"; or `impulse`).
     #[serde(default, deserialize_with = "range::optional_decay")]
     decay: Option<f64>,
-    /// Impulse of the positive phase [Pa s], which gives the decay (law "friedlander").
+    /// Impulse of the positive phase [Pa s], from which the decay follows (law "friedlander"; or `decay`). Less than 0.718 peak times duration.
     #[serde(default, deserialize_with = "range::optional_positive")]
     impulse: Option<Impulse>,
     /// The pulse itself, or a straight line for it (law "friedlander"). Default: "friedlander".
     form: Option<Form>,
-    /// Depth of the negative phase, greater than 0 (law "friedlander"). Default: no negative phase.
+    /// Depth of the negative phase, greater than 0: from `duration` on the load is -6.75 negative_peak s (1 - s)^2, s the time since then over `negative_duration`; deepest at a third of it (law "friedlander"). Default: no negative phase.
     #[serde(default, deserialize_with = "range::optional_positive")]
     negative_peak: Option<Q>,
-    /// Duration of the negative phase [s], greater than 0 (law "friedlander").
+    /// Duration of the negative phase [s], greater than 0; given where `negative_peak` is (law "friedlander").
     #[serde(default, deserialize_with = "range::optional_positive")]
     negative_duration: Option<Time>,
     /// Times [s], each later than the one before; zero before the first, the last value held (law "table").
     times: Option<Vec<Time>>,
     /// Values at the times (law "table").
     values: Option<Vec<Q>>,
-    /// Text file with a time and a value a line, SI or with units in its heading, in place of `times` and `values`.
+    /// Text file in place of `times` and `values`: a time and a value a line, decimal points, with commas, semicolons or blanks between; `#` starts a comment. In SI, unless its first line is a heading with units in square brackets: `t [ms], p [kPa]`.
     file: Option<PathBuf>,
     /// The charge and where it is (law "charge").
     explosion: Option<ExplosionKeys>,
@@ -89,7 +89,7 @@ struct FrontKeys {
     speed: Option<Velocity>,
     /// Direction (x, y) in which a plane front travels.
     direction: Option<[f64; 2]>,
-    /// Point (x, y) [m] that a circular front comes from, in place of `direction`.
+    /// Point (x, y) [m] that a circular front comes from at `speed`, in place of `direction`; each point's pulse begins as the front reaches it.
     from: Option<[Length; 2]>,
 }
 
@@ -211,7 +211,7 @@ impl<Q: Into<f64> + Copy> LawKeys<Q> {
             }
             LawName::Friedlander => self.friedlander(peak.expect(must), duration.expect(must))?,
             LawName::Charge => match self.explosion.expect(must).blast()? {
-                Blast::At { explosion, distance } => explosion.pulse(distance),
+                Blast::At { explosion, distance, .. } => explosion.pulse(distance),
                 Blast::Placed { .. } => return Err("a charge \"at\" a point has no one history".into()),
             },
         })
@@ -249,6 +249,18 @@ impl LawKeys<units::Pressure> {
         let front = self.front.take();
         self.check()?;
         let blast = self.explosion.as_ref().map(ExplosionKeys::blast).transpose()?;
+        let note = match &blast {
+            Some(Blast::At { note, .. }) => note.clone(),
+            Some(Blast::Placed { .. }) | None => None,
+        };
+        let pressure = self.swept(front, blast)?;
+        Ok(match note {
+            Some(note) => Pressure::Noted { pressure: pressure.into(), note },
+            None => pressure,
+        })
+    }
+
+    fn swept(self, front: Option<FrontKeys>, blast: Option<Blast>) -> Result<Pressure, String> {
         match (front, blast) {
             (None, Some(Blast::Placed { explosion, at, clock })) => {
                 let front = Front::Charge { explosion, at, scale: self.scale.unwrap_or(1.0), delay: self.delay() };

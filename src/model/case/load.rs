@@ -50,6 +50,8 @@ pub enum Pressure {
     Simultaneous(Pulse),
     /// where the front has passed
     Sweeping(Front, Clock),
+    /// either of these, of an explosion whose burst and wave do not quite fit its place
+    Noted { pressure: Box<Pressure>, note: String },
 }
 
 /// What t = 0 is, where a load sweeps over a curve.

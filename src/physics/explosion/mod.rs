@@ -7,6 +7,7 @@ pub mod air;
 mod explosive;
 mod kingery_bulmash;
 mod peaks;
+mod place;
 mod swisdak;
 mod table;
 
@@ -14,6 +15,7 @@ pub use explosive::Explosive;
 
 use super::friedlander;
 use super::pulse::Pulse;
+use crate::number::{short, short_to};
 use crate::{Error, Result};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -164,19 +166,32 @@ impl Formula {
         }
     }
 
+    pub const ALL: [Formula; 9] = [
+        Formula::KingeryBulmash,
+        Formula::Swisdak,
+        Formula::KinneyGraham,
+        Formula::Sadovsky,
+        Formula::SadovskyManuals,
+        Formula::Brode,
+        Formula::Henrych,
+        Formula::Mills,
+        Formula::NewmarkHansen,
+    ];
+
     /// Smallest and largest Z it holds for, none for a burst it is not made for.
     ///
-    /// 0.0531 is the surface of a spherical charge of TNT. Brode's last branch ends at 0.1 bar, Z = 9.92. Kinney and
-    /// Graham's tables go further than 40, Kingery and Bulmash's do not. For Mills, and Newmark and Hansen, the range is
-    /// where they were compared with the others here.
+    /// No pulse begins nearer than Kingery and Bulmash's duration: from it comes the decay, of the reflected pulse at
+    /// least, for every formula but Swisdak's. Brode's last branch ends at 0.1 bar, Z = 9.92. Kinney and Graham's tables
+    /// go further than 40, Kingery and Bulmash's do not. For Mills, and Newmark and Hansen, the range is where they were
+    /// compared with the others here.
     pub fn range(self, burst: Burst) -> Option<[f64; 2]> {
+        let nearest = kingery_bulmash::duration_from(burst);
         match (self, burst) {
-            (Formula::KingeryBulmash, Burst::Hemispherical) => Some([0.0674, 40.]),
-            (Formula::KingeryBulmash | Formula::KinneyGraham, Burst::Spherical) => Some([0.0531, 40.]),
+            (Formula::KingeryBulmash, _) | (Formula::KinneyGraham, Burst::Spherical) => Some([nearest, 40.]),
             (Formula::Swisdak, Burst::Hemispherical) => Some([0.2, 40.]),
             (Formula::Sadovsky, _) | (Formula::SadovskyManuals, Burst::Hemispherical) => Some([1., 10.]),
-            (Formula::Brode, Burst::Spherical) => Some([0.0531, 9.92]),
-            (Formula::Henrych, Burst::Spherical) => Some([0.0531, 10.]),
+            (Formula::Brode, Burst::Spherical) => Some([nearest, 9.92]),
+            (Formula::Henrych, Burst::Spherical) => Some([nearest, 10.]),
             (Formula::Mills, Burst::Spherical) | (Formula::NewmarkHansen, Burst::Hemispherical) => Some([1., 10.]),
             _ => None,
         }
@@ -229,15 +244,34 @@ impl Explosion {
                  \"kingery_bulmash\", or the other \"burst\""
             )));
         };
-        match (low..=high).contains(&z) {
-            true => Ok(()),
-            false => Err(Error::input(format!(
-                "the scaled distance Z = R / W^(1/3) = {distance:.6} m / ({:.6} kg)^(1/3) = {z:.4} m/kg^(1/3) is out of the \
-                 range of \"{name}\", {low} to {high} m/kg^(1/3), that is {:.4} to {:.4} m from this charge",
-                self.tnt,
-                low * self.tnt.cbrt(),
-                high * self.tnt.cbrt()
-            ))),
+        if (low..=high).contains(&z) {
+            return Ok(());
+        }
+        let why = match z < low && low == kingery_bulmash::duration_from(self.burst) {
+            true => "; nearer to the charge Kingery and Bulmash's duration, which every pulse needs, has no formula",
+            false => "",
+        };
+        Err(Error::input(format!(
+            "the scaled distance Z = R / W^(1/3) = {} m / ({} kg)^(1/3) = {} m/kg^(1/3) is out of the range of \"{name}\", \
+             {low} to {high} m/kg^(1/3), that is {} to {} m from this charge{why}: {}",
+            short(distance),
+            short(self.tnt),
+            short_to(5, z),
+            short_to(5, low * self.tnt.cbrt()),
+            short_to(5, high * self.tnt.cbrt()),
+            self.way_out(z)
+        )))
+    }
+
+    /// Which formulas hold for this burst where this one does not.
+    fn way_out(&self, z: f64) -> String {
+        let holds = |f: &&Formula| f.range(self.burst).is_some_and(|[low, high]| (low..=high).contains(&z));
+        let names: Vec<String> = Formula::ALL.iter().filter(holds).map(|f| format!("\"{}\"", f.name())).collect();
+        match names.is_empty() {
+            true => "change the distance or the charge; no formula here holds there".into(),
+            false => {
+                format!("change the distance or the charge, or take a formula that holds there: {}", names.join(", "))
+            }
         }
     }
 

@@ -7,8 +7,8 @@ mod report;
 
 use crate::model::case::Case;
 use crate::model::mesh::Mesh;
-use crate::model::number::short;
 use crate::model::resolve::Model;
+use crate::number::short;
 use crate::results::histories::Peak;
 use crate::study::mesh;
 use crate::study::quantity::Quantity;

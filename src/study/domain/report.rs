@@ -2,7 +2,7 @@
 
 use super::{Row, Size, Study, core_names};
 use crate::Result;
-use crate::model::number;
+use crate::number;
 use crate::results::plot::{Curve, Panel, svg};
 use crate::study::history::History;
 use serde_json::{Value, json};
