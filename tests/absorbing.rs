@@ -184,10 +184,33 @@ fn returned(angle: f64) -> [f64; 2] {
     [found[0], found[1]]
 }
 
+/// Amplitudes of P up, S down and S up over that of P down, wavelength of P 1, from the motion u_x / sin(kx x), u_y / cos(kx x) at two
+/// heights.
+fn told_apart(motion: Vector4<Complex<f64>>, heights: [f64; 2], angle: f64) -> [Complex<f64>; 3] {
+    let [c_p, c_s] = speeds();
+    let (s, c) = angle.sin_cos();
+    let (sg, cg) = (c_s / c_p * s).asin().sin_cos();
+    let (ky, ks) = (2. * PI * c, 2. * PI * c_p / c_s * cg);
+    let i = Complex::i();
+    let column = |ux: Complex<f64>, uy: f64, k: f64| {
+        let phases = heights.map(|y| Complex::from_polar(1., k * y));
+        Vector4::new(ux * phases[0], phases[0] * uy, ux * phases[1], phases[1] * uy)
+    };
+    // displacement (sin kx x, cos kx x) of P down and up, S up and down
+    let waves = Matrix4::from_columns(&[
+        column(-i * s, -c, ky),
+        column(-i * s, c, -ky),
+        column(-i * cg, -sg, -ks),
+        column(-i * cg, sg, ks),
+    ]);
+    let found = waves.lu().solve(&motion).unwrap();
+    [found[1] / found[0], found[2] / found[0], found[3] / found[0]]
+}
+
 /// Two plane P waves at plus and minus the angle stand between rollers half a wavelength of theirs apart and come down as
 /// a packet; what passes two heights is told apart into P and S, up and down, at the packet's own frequency.
 fn measured(angle: f64) -> [Complex<f64>; 3] {
-    let [c_p, c_s] = speeds();
+    let [c_p, _] = speeds();
     let k = 2. * PI; // wavelength 1
     let (kx, ky) = (k * angle.sin(), k * angle.cos());
     let (width, long) = (PI / kx, 1. / angle.cos());
@@ -247,23 +270,7 @@ fn measured(angle: f64) -> [Complex<f64>; 3] {
             spectrum[2 * i + 1] += turn * system.unknowns.at_node(&state.q, *edge)[1];
         }
     });
-    let (s, c) = angle.sin_cos();
-    let (sg, cg) = (c_s / c_p * s).asin().sin_cos();
-    let ks = omega / c_s * cg;
-    let i = Complex::i();
-    let column = |ux: Complex<f64>, uy: f64, k: f64| {
-        let rows = rows.map(|y| Complex::from_polar(1., k * y));
-        Vector4::new(ux * rows[0], rows[0] * uy, ux * rows[1], rows[1] * uy)
-    };
-    // displacement (sin kx x, cos kx x) of P down and up, S up and down
-    let waves = Matrix4::from_columns(&[
-        column(-i * s, -c, ky),
-        column(-i * s, c, -ky),
-        column(-i * cg, -sg, -ks),
-        column(-i * cg, sg, ks),
-    ]);
-    let found = waves.lu().solve(&spectrum).unwrap();
-    [found[1] / found[0], found[2] / found[0], found[3] / found[0]]
+    told_apart(spectrum, rows, angle)
 }
 
 /// The table of P waves by angle. 0.01: wavelengths of 10 (P) and 6 (S) elements, steps of a fortieth of the period; S

@@ -22,5 +22,6 @@ pub mod ring;
 mod sampled;
 pub mod sides;
 pub mod split;
+pub mod travel;
 mod twins;
 pub mod units;

@@ -1,7 +1,9 @@
 //! What a run tells on stderr: sentences, warnings, and a progress bar on a terminal or plain lines in a log.
 
 use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
+use std::sync::Mutex;
 
 pub struct Screen {
     quiet: bool,
@@ -27,9 +29,12 @@ impl Screen {
         }
     }
 
-    /// Warnings are told even to those who want quiet.
+    /// Warnings are told even to those who want quiet; each once, however many runs of a study give it.
     pub fn warn(&self, sentence: &str) {
-        tell(&format!("warning: {sentence}"));
+        static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+        if TOLD.lock().is_ok_and(|mut told| told.insert(sentence.into())) {
+            tell(&format!("warning: {sentence}"));
+        }
     }
 
     pub fn progress(&self, steps: usize) -> Progress {

@@ -2,18 +2,17 @@
 //!
 //! First the width grows until what was asked for changes by less than the tolerance, then the height, then both at once.
 
+mod alike;
 mod bound;
 mod report;
 
 use super::history::{Change, History};
 use super::quantity::Quantity;
 use super::run::{self, Request};
-use super::script::Script;
 use super::series::{self, Member, Series, Variant};
 use crate::model::arrival::{Returns, returns};
-use crate::model::case::{Analysis, Case, Geometry};
+use crate::model::case::{Analysis, Case};
 use crate::model::moving_front::MovingFront;
-use crate::model::resolve::Model;
 use crate::model::units::Time;
 use crate::number::short;
 use crate::results::file;
@@ -147,8 +146,10 @@ impl<'a> Study<'a> {
             tolerance,
             until,
             start,
-            core: core(&script, options, start, &given(&case, request)),
-            inner_mesh_is_kept: core_names(options).iter().all(|name| script.constants.iter().any(|c| c.name == *name)),
+            core: alike::core(&script, options, start, &alike::given(&case, request)),
+            inner_mesh_is_kept: alike::core_names(options)
+                .iter()
+                .all(|name| script.constants.iter().any(|c| c.name == *name)),
             sets: vec![format!("output.every={frames:e}")],
         })
     }
@@ -200,7 +201,7 @@ impl<'a> Study<'a> {
         let model = run::load(&request)?.model;
         let origins = model.loads.iter().map(|l| l.front.as_ref().map(MovingFront::origin)).collect();
         if let Some((row, _)) = from {
-            refuse_shift(&row.origins, &origins, &model, size)?;
+            alike::refuse_shift(&row.origins, &origins, &model, size)?;
         }
         let member = self.series.run(&variant)?;
         let history = |q: &Quantity| Ok(q.history(&member.folder)?.until(self.until));
@@ -252,44 +253,4 @@ fn window(case: &Case, until: Option<&str>) -> Result<f64> {
         )));
     }
     Ok(until)
-}
-
-/// Round-off of arrivals [s]
-const SAME_TIME: f64 = 1e-9;
-
-/// Histories counted from different times cannot be compared.
-fn refuse_shift(old: &[Option<f64>], new: &Vec<Option<f64>>, model: &Model, [width, height]: Size) -> Result<()> {
-    let shift = |(a, b): (&Option<f64>, &Option<f64>)| Some((b.as_ref()? - a.as_ref()?).abs());
-    let shifts = old.iter().zip(new).map(|pair| shift(pair).unwrap_or(0.));
-    match shifts.zip(&model.loads).find(|(shift, _)| *shift > SAME_TIME) {
-        None => Ok(()),
-        Some((shift, load)) => Err(Error::input(format!(
-            "the load on \"{}\" counts t = 0 from its front's arrival at the curve, which at {} x {} comes {} ms away from that of the size \
-             before: the histories cannot be compared; give a charge \"clock\": \"detonation\", or load a curve that does not grow",
-            load.group,
-            report::short(width),
-            report::short(height),
-            report::short(1e3 * shift)
-        ))),
-    }
-}
-
-fn core_names(options: &Options) -> [String; 2] {
-    [&options.width, &options.height].map(|name| format!("core_{name}"))
-}
-
-/// `core_WIDTH` and `core_HEIGHT` of the script at the first size, where the user gives no others.
-fn core(script: &Script, options: &Options, start: Size, given: &[String]) -> BTreeMap<String, f64> {
-    let pairs = core_names(options).into_iter().zip(start);
-    let is_known = |name: &String| script.constants.iter().any(|c| c.name == *name);
-    pairs.filter(|(name, _)| is_known(name) && !given.contains(name)).collect()
-}
-
-/// Constants that the case or the command line sets.
-fn given(case: &Case, request: &Request) -> Vec<String> {
-    let parameters = match &case.geometry {
-        Some(Geometry::Script { parameters, .. }) => parameters.keys().cloned().collect(),
-        _ => vec![],
-    };
-    request.geo.keys().cloned().chain(parameters).collect()
 }

@@ -1,6 +1,7 @@
 //! The study's table, CSV, JSON and plot.
 
-use super::{Row, Size, Study, core_names};
+use super::alike::core_names;
+use super::{Row, Size, Study};
 use crate::Result;
 use crate::number;
 use crate::results::plot::{Curve, Panel, svg};
