@@ -156,9 +156,12 @@ fn a_table_in_a_file_lies_beside_the_case_and_becomes_part_of_what_was_calculate
         std::fs::write(folder.join("p.csv"), table).unwrap();
         Case::read(&case, &[])
     };
-    for table in
-        ["t,p\n0,0\n0.001,5e4\n0.05,0\n", "# s  Pa\n0 0\n\n1e-3 5e4 # peak\n.05 0", "0;0\n0.001; 5e4\n0.05;0\r\n"]
-    {
+    for table in [
+        "t,p\n0,0\n0.001,5e4\n0.05,0\n",
+        "\u{feff}t 2 [ms];p [kPa]\r\n0;0\r\n1;50\r\n50;0",
+        "# s  Pa\n0 0\n\n1e-3 5e4 # peak\n.05 0",
+        "0;0\n0.001; 5e4\n0.05;0\r\n",
+    ] {
         let case = read_with(table).unwrap();
         let expected = Pulse::Table { times: vec![0.0, 1e-3, 0.05], values: vec![0.0, 5e4, 0.0] };
         assert_eq!(case.loads.iter().next().unwrap().1, &Load::Pressure(Pressure::Simultaneous(expected)), "{table:?}");

@@ -92,7 +92,7 @@ fn the_table_has_a_row_a_run() {
 #[test]
 fn a_bad_plan_is_refused_before_anything_runs() {
     let bench = Bench::new("sweep-bad");
-    let rows: [(&str, &[&str]); 9] = [
+    let rows: [(&str, &[&str]); 10] = [
         ("{", &["bad.json", "line 1", "interfaces.interface_left.friction"]),
         (r#"{"case": "block.json", "geo": {"crown": [4, 4.0]}}"#, &["geo.crown", "4.0 stands twice"]),
         (r#"{"case": "block.json", "set": {"time.step": ["1 ms", "1 ms"]}}"#, &["set.time.step", "stands twice"]),
@@ -101,6 +101,7 @@ fn a_bad_plan_is_refused_before_anything_runs() {
         (r#"{"case": "block.json", "set": {"time.step": "1 ms"}}"#, &["set.time.step", "a list"]),
         (r#"{"case": "block.json", "set": {"time.stop": [1, 2]}}"#, &["stop1", "time", "\"step\""]),
         (r#"{"case": "block.json", "geo": {"width": ["wide"]}}"#, &["geo.width", "no number"]),
+        (r#"{"case": "block.json", "geo": {"a": [1]}, "geo": {"b": [2]}}"#, &["bad.json", "\"geo\" stands twice"]),
         (r#"{"case": "block.json", "runs": [1]}"#, &["bad.json", "runs"]),
     ];
     for (plan, words) in rows {

@@ -29,6 +29,7 @@ use crate::model::units::{Acceleration, Length, Velocity};
 
 use damping::DampingKeys;
 pub use damping::{Damping, Rayleigh};
+pub use duplicate::Unique;
 pub use explosion::{Blast, ExplosionKeys};
 pub use interface::{Integration, Interface};
 pub use load::{Clock, Directed, Load, Loads, Pressure};

@@ -78,7 +78,8 @@ fn read(file: &Path, unit: Unit) -> Result<(Vec<f64>, Vec<f64>), String> {
         .map(|(i, line)| (i + 1, line.split('#').next().unwrap_or_default().trim()))
         .filter(|(_, line)| !line.is_empty())
         .collect();
-    let heading = lines.first().filter(|(_, line)| columns(line).all(|word| word.parse::<f64>().is_err()));
+    let is_heading = |line: &str| line.contains('[') || columns(line).all(|word| word.parse::<f64>().is_err());
+    let heading = lines.first().filter(|(_, line)| is_heading(line));
     let first = lines.first().map_or(0, |(number, _)| *number);
     if !heading.is_some_and(|(_, line)| line.contains('[')) {
         no_units_in_comments(text, first, unit).map_err(at)?;

@@ -1,5 +1,6 @@
 //! The plan of a sweep: one case, and the values that its keys and the constants of its script take in turn.
 
+use crate::model::case::Unique;
 use crate::{Error, Result};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -47,7 +48,8 @@ impl Plan {
     pub fn read(path: &Path) -> Result<Plan> {
         let place = path.display();
         let text = std::fs::read_to_string(path).map_err(|e| Error::input(format!("{place}: {e}")))?;
-        let plan: Plan = serde_json::from_str(&text).map_err(|e| {
+        let plan = serde_json::from_str(&text).and_then(|Unique(json)| serde_json::from_value(json));
+        let plan: Plan = plan.map_err(|e| {
             Error::input(format!(
                 "{place}: {e}; a plan looks like {{ \"case\": \"twin_pipes.json\", \"set\": {{ \
                  \"interfaces.interface_left.friction\": [0.2, 0.4] }}, \"geo\": {{ \"spacing\": [1.8, 2.4] }} }}"
