@@ -64,26 +64,25 @@ impl<const K: usize> Kernel for SumOfProducts<'_, K> {
     fn run(self) -> Vec<[f64; K]> {
         let SumOfProducts { pattern, a, b, xy } = self;
         let mut sums = vec![[0.; K]; xy.len()];
-        for (i, [x_i, y_i]) in xy.iter().enumerate() {
+        for (i, here) in xy.iter().enumerate() {
             let row = pattern.row(i);
             let mut right = [[0.; K]; AT_ONCE];
-            let mut add = |right: &mut [f64; K], j: u32, a: f64, b: f64| {
-                let ([x_j, y_j], below) = (&xy[j as usize], &mut sums[j as usize]);
-                for k in 0..K {
-                    right[k] += a * x_j[k] + b * y_j[k];
-                    below[k] += a * x_i[k] + b * y_i[k];
-                }
-            };
             let (columns, last_column) = pattern.columns[row.start + 1..row.end].as_chunks::<AT_ONCE>();
             let [(a_s, last_a), (b_s, last_b)] = [a, b].map(|m| m[row.start + 1..row.end].as_chunks::<AT_ONCE>());
             for ((j, a), b) in columns.iter().zip(a_s).zip(b_s) {
-                (0..AT_ONCE).for_each(|e| add(&mut right[e], j[e], a[e], b[e]));
+                for e in 0..AT_ONCE {
+                    let j = j[e] as usize;
+                    add_product(&mut right[e], [a[e], b[e]], &xy[j]);
+                    add_product(&mut sums[j], [a[e], b[e]], here);
+                }
             }
             for ((&j, &a), &b) in last_column.iter().zip(last_a).zip(last_b) {
-                add(&mut right[0], j, a, b);
+                add_product(&mut right[0], [a, b], &xy[j as usize]);
+                add_product(&mut sums[j as usize], [a, b], here);
             }
+            add_product(&mut sums[i], [a[row.start], b[row.start]], here);
             for k in 0..K {
-                sums[i][k] += a[row.start] * x_i[k] + b[row.start] * y_i[k] + right[0][k] + right[1][k];
+                sums[i][k] += right[0][k] + right[1][k];
             }
         }
         sums
@@ -106,28 +105,44 @@ impl<const K: usize> Kernel for QuadraticForms<'_, K> {
         for (i, here) in xyz.iter().enumerate() {
             let row = pattern.row(i);
             let mut right = [[[0.; K]; 3]; AT_ONCE];
-            let add = |right: &mut [[f64; K]; 3], j: u32, values: [f64; 3]| {
-                let there = &xyz[j as usize];
-                for m in 0..3 {
-                    (0..K).for_each(|k| right[m][k] += values[m] * there[m][k]);
-                }
-            };
             let (columns, last_column) = pattern.columns[row.start + 1..row.end].as_chunks::<AT_ONCE>();
             let [(a_s, last_a), (b_s, last_b), (c_s, last_c)] =
                 [a, b, c].map(|m| m[row.start + 1..row.end].as_chunks::<AT_ONCE>());
             for (((j, a), b), c) in columns.iter().zip(a_s).zip(b_s).zip(c_s) {
-                (0..AT_ONCE).for_each(|e| add(&mut right[e], j[e], [a[e], b[e], c[e]]));
+                for e in 0..AT_ONCE {
+                    add_each(&mut right[e], [a[e], b[e], c[e]], &xyz[j[e] as usize]);
+                }
             }
             for (((&j, &a), &b), &c) in last_column.iter().zip(last_a).zip(last_b).zip(last_c) {
-                add(&mut right[0], j, [a, b, c]);
+                add_each(&mut right[0], [a, b, c], &xyz[j as usize]);
             }
             // Each entry off the diagonal stands for two.
             for (m, values) in [a, b, c].into_iter().enumerate() {
-                let of_row = |k: usize| values[row.start] * here[m][k] + 2. * (right[0][m][k] + right[1][m][k]);
-                (0..K).for_each(|k| forms[m][k] += here[m][k] * of_row(k));
+                for k in 0..K {
+                    let of_row = values[row.start] * here[m][k] + 2. * (right[0][m][k] + right[1][m][k]);
+                    forms[m][k] += here[m][k] * of_row;
+                }
             }
         }
         forms
+    }
+}
+
+/// sum <- sum + a x + b y. A function and not a closure, so that it is always compiled into the kernel.
+#[inline(always)]
+fn add_product<const K: usize>(sum: &mut [f64; K], [a, b]: [f64; 2], [x, y]: &[[f64; K]; 2]) {
+    for k in 0..K {
+        sum[k] += a * x[k] + b * y[k];
+    }
+}
+
+/// Each of three sums <- sum + value times x.
+#[inline(always)]
+fn add_each<const K: usize>(sums: &mut [[f64; K]; 3], values: [f64; 3], x: &[[f64; K]; 3]) {
+    for m in 0..3 {
+        for k in 0..K {
+            sums[m][k] += values[m] * x[m][k];
+        }
     }
 }
 
