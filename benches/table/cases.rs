@@ -15,6 +15,7 @@ const NO_FRAMES: &str = "100 ms";
 pub fn rows() -> Vec<Row> {
     let plan = json!({
         "case": CASE,
+        "frames": true,
         "set": {
             "loads.surface.pressure.peak": PEAKS,
             "interfaces.interface_left.friction": FRICTIONS,

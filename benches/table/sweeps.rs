@@ -1,7 +1,7 @@
 //! Forward and backward sweep beside what memory allows and beside faer's own solve.
 
 use super::case::Size;
-use super::clock::{Samples, in_turns};
+use super::clock::in_turns;
 use super::faer_solve::FaerSolve;
 use super::stream;
 use super::table::{Row, seconds};
@@ -15,15 +15,12 @@ pub fn rows(size: &Size) -> Vec<Row> {
     let Prepared { model, system, symbolic, .. } = &size.prepare(false);
     let constants = Constants::new(model.integrator.newmark, model.time.step);
     let effective = combine(&[(1., &system.stiffness), (constants.a0, &system.mass), (constants.a1, &system.damping)]);
-    let factor_on = |threads| symbolic.factor(&effective).expect("K* is positive definite").on_threads(threads);
-    let (factor, on_two) = (factor_on(1), factor_on(2));
+    let factor = symbolic.factor(&effective).expect("K* is positive definite");
     let mut faer = FaerSolve::new(&effective);
 
     let load = system.load(0.);
-    let (mut ours, mut theirs, mut on_both) = (load.clone(), load.clone(), load.clone());
+    let (mut ours, mut theirs) = (load.clone(), load.clone());
     factor.solve(&mut ours);
-    on_two.solve(&mut on_both);
-    assert_eq!(ours, on_both, "digits with one thread and with two");
     faer.solve(&mut theirs);
     let largest = theirs.iter().fold(0., |m: f64, x| m.max(x.abs()));
     let differ = ours.iter().zip(&theirs).all(|(a, b)| (a - b).abs() <= 1e-10 * largest);
@@ -31,7 +28,7 @@ pub fn rows(size: &Size) -> Vec<Row> {
 
     // One array for each packed copy of L.
     let copies = [vec![1.; factor.entries()], vec![1.; factor.entries()]];
-    let [limit, sweeps, two_threads, faer_solve] = in_turns(
+    let [limit, sweeps, faer_solve] = in_turns(
         ROUNDS,
         [
             &mut || {
@@ -44,29 +41,20 @@ pub fn rows(size: &Size) -> Vec<Row> {
                 factor.solve(&mut ours);
             },
             &mut || {
-                on_both.copy_from_slice(&load);
-                on_two.solve(&mut on_both);
-            },
-            &mut || {
                 theirs.copy_from_slice(&load);
                 faer.solve(&mut theirs);
             },
         ],
     );
-    let row = |what, sweeps: &Samples, beside: &str, reference: &Samples, goal| Row {
-        what,
+    let row = |beside: &str, reference: &super::clock::Samples, goal| Row {
+        what: "forward + backward sweep",
         unknowns: system.unknowns.count,
         joint_points: system.interface.points.len(),
         value: seconds(sweeps.median()),
         beside: beside.into(),
         reference: seconds(reference.median()),
         ratio: sweeps.over(reference),
-        goal,
+        goal: Some(goal),
     };
-    let what = "forward + backward sweep";
-    vec![
-        row(what, &sweeps, "reading L twice", &limit, Some(1.6)),
-        row(what, &sweeps, "faer's solve", &faer_solve, Some(0.5)),
-        row("the same, two threads", &two_threads, "one thread", &sweeps, None),
-    ]
+    vec![row("reading L twice", &limit, 1.6), row("faer's solve", &faer_solve, 0.5)]
 }

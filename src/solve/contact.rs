@@ -125,7 +125,14 @@ impl Contact {
                 self.last = Some((jumps.clone(), residual.linear));
                 return Ok(Solution { jumps, responses: branches.responses, iterations, displacement_test });
             }
-            let turns_in_a_circle = !settled && seen.contains(&branches.statuses);
+            let mut turns_in_a_circle = !settled && seen.contains(&branches.statuses);
+            if turns_in_a_circle && self.inverse.is_corrected() {
+                // Corrections may have worn the inverse: once more with a fresh one, from what the residual really is.
+                self.inverse.forget();
+                residual = self.on_branches(problem, &jumps, &branches);
+                seen.clear();
+                turns_in_a_circle = false;
+            }
             if turns_in_a_circle || iterations == self.options.max_iterations {
                 return Err(self.unsettled(problem, &residual, seen.last(), branches.statuses));
             }

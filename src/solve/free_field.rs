@@ -18,11 +18,12 @@ use crate::physics::element;
 use crate::physics::shape::Shape;
 use crate::sparse::{Orders, Symbolic, multiply};
 use sprs::{CsMat, TriMat};
+use std::sync::Arc;
 
 /// The column beyond one side, and its forces on the side.
 pub struct Column {
     pub system: System,
-    pub symbolic: Symbolic,
+    pub symbolic: Arc<Symbolic>,
     /// for each node of the column the node of the side at its height
     origin: Vec<usize>,
     /// the model's unknowns that the forces act on, a row each of the two matrices
@@ -52,12 +53,24 @@ impl Column {
             }
         }
         Ok(Column {
-            symbolic: system.symbolic(),
+            symbolic: system.symbolic().into(),
             origin: side.origin.clone(),
             unknowns: own,
             pressure: pressure.to_csr(),
             drag: drag.to_csr(),
             system,
+        })
+    }
+
+    /// The column of a model that differs from this one's in its loads only.
+    pub fn with_loads_of(&self, side: &FreeField) -> Result<Column> {
+        Ok(Column {
+            system: self.system.with_loads_of(&side.column)?,
+            symbolic: self.symbolic.clone(),
+            origin: self.origin.clone(),
+            unknowns: self.unknowns.clone(),
+            pressure: self.pressure.clone(),
+            drag: self.drag.clone(),
         })
     }
 

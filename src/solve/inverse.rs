@@ -13,6 +13,7 @@ const MANY: usize = 8;
 
 #[derive(Default)]
 pub struct Inverse {
+    /// the one that belongs to tangents of its own, perhaps after corrections
     kept: Option<Kept>,
     /// how the last tangents differ from those of the inverse
     change: Option<Change>,
@@ -23,6 +24,8 @@ struct Kept {
     tangents: Vec<Matrix2<f64>>,
     /// R
     inverse: Mat<f64>,
+    /// made from S, not from another inverse
+    fresh: bool,
 }
 
 impl Inverse {
@@ -40,6 +43,11 @@ impl Inverse {
     /// Lets go of an inverse that many corrections have made inexact.
     pub fn forget(&mut self) {
         (self.kept, self.change) = (None, None);
+    }
+
+    /// Whether the last solution came from corrections.
+    pub fn is_corrected(&self) -> bool {
+        self.change.is_some() || self.kept.as_ref().is_some_and(|kept| !kept.fresh)
     }
 
     /// An inverse whose tangents differ from the given ones in few places, and how.
@@ -73,7 +81,7 @@ impl Kept {
         for (point, d) in interface.points.iter().zip(tangents) {
             interface.tangent(point, d, |i, j, value| matrix[(i, j)] += value);
         }
-        Kept { tangents: tangents.to_vec(), inverse: matrix.partial_piv_lu().inverse() }
+        Kept { tangents: tangents.to_vec(), inverse: matrix.partial_piv_lu().inverse(), fresh: true }
     }
 
     /// R - R E W E'R.
@@ -83,7 +91,7 @@ impl Kept {
         let columns = Mat::from_fn(inverse.nrows(), n, |i, k| inverse[(i, change.places[k])]);
         let weighted = &change.weights * rows;
         faer::linalg::matmul::matmul(&mut inverse, Accum::Add, &columns, &weighted, -1., Par::Seq);
-        Kept { tangents: change.to, inverse }
+        Kept { tangents: change.to, inverse, fresh: false }
     }
 
     /// R f.

@@ -186,14 +186,15 @@ pub fn step_together(
     systems: &[&System],
     old: &[&State],
 ) -> Vec<Result<Step, Unsettled>> {
+    assert!(!old.is_empty(), "at least one system");
     assert!(steppers.len() == systems.len() && systems.len() == old.len(), "a stepper, a system and a state each");
-    with_lanes_for!(steppers.len(), lanes(steppers, systems, old))
+    with_lanes_for!(steppers.len(), step_lanes(steppers, systems, old))
 }
 
 /// Most systems that [`step_together`] takes at once.
 pub const MOST_TOGETHER: usize = MOST_LANES;
 
-fn lanes<const K: usize>(
+fn step_lanes<const K: usize>(
     steppers: &mut [&mut Stepper],
     systems: &[&System],
     old: &[&State],
@@ -204,6 +205,9 @@ fn lanes<const K: usize>(
     let first = systems[0].unknowns.first_jump;
     let settled: Vec<_> = (0..old.len())
         .map(|k| {
+            if let Err(why) = &free_fields[k] {
+                return Err(why.clone());
+            }
             let mut jumps: Vec<f64> = x[first..].iter().map(|x| x[k]).collect();
             let settled = steppers[k].settle(systems[k], &mut jumps, old[k])?;
             x[first..].iter_mut().zip(&jumps).for_each(|(x, jump)| x[k] = *jump);

@@ -113,8 +113,9 @@ impl System {
 
     /// The system of a model that differs from this one's in its loads and the friction of its joints only.
     pub fn with_loads_of(&self, model: &Model) -> Result<System> {
-        let columns = columns(model, &self.unknowns, &Orders::default())?;
+        let columns = self.columns.iter().zip(&model.free_fields);
         Ok(System {
+            columns: columns.map(|(column, side)| column.with_loads_of(side)).collect::<Result<_>>()?,
             unknowns: self.unknowns.clone(),
             stiffness: self.stiffness.clone(),
             mass: self.mass.clone(),
@@ -126,7 +127,6 @@ impl System {
             interface: interface(model, &self.unknowns),
             gravity: self.gravity.clone(),
             reactions: vec![0.; self.unknowns.count],
-            columns: columns.into_iter().map(|c| c.with_damping(self.rayleigh)).collect(),
             loads: loads(model, &self.unknowns),
             fronts: fronts(model),
         })

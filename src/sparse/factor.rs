@@ -1,7 +1,6 @@
 //! Cholesky factor A = L L^T: analysed once for a pattern, computed for each set of values.
 
 use std::fmt;
-use std::num::NonZero;
 use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -60,8 +59,6 @@ pub struct Factor {
     pub(super) forward: Vec<f64>,
     /// L by columns, from the last supernode to the first.
     pub(super) backward: Vec<f64>,
-    /// How many may sweep at once.
-    pub(super) threads: usize,
 }
 
 impl Symbolic {
@@ -111,8 +108,7 @@ impl Symbolic {
     pub fn factor(&self, a: &CsMat<f64>) -> Result<Factor, NotPositiveDefinite> {
         let values = self.values(a)?;
         let (forward, backward) = both(|| self.panels.pack_forward(&values), || self.panels.pack_backward(&values));
-        let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
-        Ok(Factor { panels: self.panels.clone(), forward, backward, threads })
+        Ok(Factor { panels: self.panels.clone(), forward, backward })
     }
 
     /// x <- A^-1 x, for a matrix that is solved with once: packing its factor would take longer than it saves.
@@ -229,11 +225,6 @@ impl Symbolic {
 const MAX_GROWTH: f64 = 1e4;
 
 impl Factor {
-    /// With at most so many threads for a sweep, which do not change its digits; it takes no more than two.
-    pub fn on_threads(self, threads: usize) -> Factor {
-        Factor { threads, ..self }
-    }
-
     /// Number of unknowns.
     pub fn len(&self) -> usize {
         self.panels.unknowns()

@@ -32,6 +32,8 @@ type Hash = [u8; 32];
 
 /// First bytes of the written form. The number counts up when [`elimination_order`] comes to give other orders.
 const HEADER: &[u8] = b"coralpipe orders 1\n";
+/// What the first bytes of any number have in common.
+const NAME: &[u8] = b"coralpipe orders ";
 /// As many are written: of a mesh's cases with open and with bonded interfaces, of its columns, of other supports.
 const MOST: usize = 8;
 
@@ -54,9 +56,9 @@ impl Orders {
         Some(Orders { known: Known { orders, grown: false }.into() })
     }
 
-    /// Whether bytes begin as those of some orders do.
+    /// Whether bytes begin as those of some orders do, of whatever number; a crash may have left none.
     pub fn are_orders(bytes: &[u8]) -> bool {
-        bytes.starts_with(HEADER)
+        bytes.is_empty() || bytes.starts_with(NAME)
     }
 
     /// The last ones that were used.

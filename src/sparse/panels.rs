@@ -14,23 +14,9 @@ pub(super) struct Panels {
     rows: Vec<usize>,
     /// Where each supernode finds itself in faer's values.
     places: Vec<Place>,
-    /// Number of entries before each supernode, and of all.
-    offsets: Vec<usize>,
     /// The supernode that begins at the border between leading and trailing unknowns.
     pub border: usize,
-    /// Where there is enough to do for two threads.
-    pub halves: Option<Halves>,
 }
-
-/// Supernodes `0..middle` and `middle..end`, which share no unknowns; only those from `end` on couple them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Halves {
-    pub middle: usize,
-    pub end: usize,
-}
-
-/// Entries of L from which on a sweep takes longer than starting a thread: about a millisecond.
-const WORTH_A_THREAD: usize = 2_000_000;
 
 /// A dense part of faer's values, column by column, upper triangle included.
 struct Place {
@@ -58,15 +44,7 @@ impl Panels {
     pub fn new(supernodes: &SymbolicSupernodalCholesky<usize>, border: usize) -> Self {
         let n = supernodes.nrows();
         let ends = supernodes.supernode_begin().iter().skip(1).copied().chain([n]);
-        let mut panels = Panels {
-            columns: vec![],
-            start: vec![0],
-            rows: vec![],
-            places: vec![],
-            offsets: vec![0],
-            border: 0,
-            halves: None,
-        };
+        let mut panels = Panels { columns: vec![], start: vec![0], rows: vec![], places: vec![], border: 0 };
         for (s, (&begin, end)) in supernodes.supernode_begin().iter().zip(ends).enumerate() {
             let pattern = supernodes.supernode(s).pattern();
             let (values, stride) = (supernodes.col_ptr_for_val()[s], end - begin + pattern.len());
@@ -81,46 +59,7 @@ impl Panels {
             }
         }
         panels.columns.push(n);
-        for s in 0..panels.count() {
-            let (width, height) = (panels.width(s), panels.rows(s).len());
-            panels.offsets.push(panels.offsets[s] + width * height - width * (width - 1) / 2);
-        }
-        let enough = panels.offsets[panels.border] >= WORTH_A_THREAD;
-        panels.halves = enough.then(|| panels.in_halves()).flatten();
         panels
-    }
-
-    /// Cuts the elimination tree before the border in two, so that both parts and then the rest take least.
-    fn in_halves(&self) -> Option<Halves> {
-        let first = self.first_of_subtrees();
-        let total = self.offsets[self.border];
-        let mut best = None;
-        let mut least = MOST_IN_HALVES * total as f64;
-        for end in (1..=self.border).rev().take_while(|&end| total - self.offsets[end] < total / 4) {
-            let roots =
-                std::iter::successors(Some(first[end - 1]), |&from| from.checked_sub(1).map(|root| first[root]));
-            for middle in roots {
-                let larger = self.offsets[middle].max(self.offsets[end] - self.offsets[middle]);
-                let time = (larger + total - self.offsets[end]) as f64;
-                if time < least {
-                    (best, least) = (Some(Halves { middle, end }), time);
-                }
-            }
-        }
-        best
-    }
-
-    /// For each supernode before the border the first one of its subtree, which ends with it.
-    fn first_of_subtrees(&self) -> Vec<usize> {
-        let of_unknown = |i: usize| self.columns.partition_point(|&column| column <= i) - 1;
-        let mut first: Vec<usize> = (0..self.border).collect();
-        for s in 0..self.border {
-            let parent = self.rows(s).get(self.width(s)).map(|&row| of_unknown(row));
-            if let Some(parent) = parent.filter(|&parent| parent < self.border) {
-                first[parent] = first[parent].min(first[s]);
-            }
-        }
-        first
     }
 
     pub fn unknowns(&self) -> usize {
@@ -169,12 +108,7 @@ impl Panels {
 
     /// Number of entries of some supernodes.
     pub fn entries(&self, supernodes: Range<usize>) -> usize {
-        self.offsets[supernodes.end] - self.offsets[supernodes.start]
-    }
-
-    /// The unknowns of some supernodes.
-    pub fn unknowns_of(&self, supernodes: Range<usize>) -> Range<usize> {
-        self.columns[supernodes.start]..self.columns[supernodes.end]
+        supernodes.map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2).sum()
     }
 
     /// Visits the entries (row, column) of supernode `s` in the order of the forward copy, counted inside it.
@@ -198,9 +132,6 @@ impl Panels {
         }
     }
 }
-
-/// Of the time in one piece: with less to gain a second thread is not worth its start.
-const MOST_IN_HALVES: f64 = 0.8;
 
 /// An entry of L as it is packed.
 fn stored(l: f64, diagonal: bool) -> f64 {

@@ -7,10 +7,9 @@
 
 use std::ops::Range;
 
-use super::panels::{BLOCK, Halves, Panels, blocks};
+use super::panels::{BLOCK, Panels, blocks};
 use super::widest::{Kernel, on_widest};
 use super::{Factor, Lanes};
-use crate::threads::both;
 
 /// Calls a function of the block size that is known when compiling.
 macro_rules! of_size {
@@ -34,12 +33,12 @@ impl Factor {
     /// # Panics
     /// If `x` has not one entry for each unknown; likewise the functions below.
     pub fn forward(&self, x: &mut [f64]) {
-        self.sweep_forward(self.panels.count(), one_lane(x));
+        self.sweep_forward(0..self.panels.count(), one_lane(x));
     }
 
     /// x <- L^-T x.
     pub fn backward(&self, x: &mut [f64]) {
-        self.sweep_backward(self.panels.count(), one_lane(x));
+        self.sweep_backward(0..self.panels.count(), one_lane(x));
     }
 
     /// x <- A^-1 x.
@@ -61,55 +60,24 @@ impl Factor {
 
     /// [`Factor::condense`] for several vectors, reading L once.
     pub fn condense_lanes<const K: usize>(&self, x: &mut Lanes<K>) {
-        self.sweep_forward(self.panels.border, x);
+        self.sweep_forward(0..self.panels.border, x);
     }
 
     /// [`Factor::expand`] for several vectors, reading L once.
     pub fn expand_lanes<const K: usize>(&self, x: &mut Lanes<K>) {
-        self.sweep_backward(self.panels.border, x);
+        self.sweep_backward(0..self.panels.border, x);
     }
 
-    /// Over the supernodes `0..end`. What the second half subtracts from the unknowns behind both is gathered by itself
-    /// first, whichever thread does it: so the digits do not depend on threads.
-    fn sweep_forward<const K: usize>(&self, end: usize, x: &mut Lanes<K>) {
+    fn sweep_forward<const K: usize>(&self, supernodes: Range<usize>, x: &mut Lanes<K>) {
         assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
-        let sweep = |supernodes: Range<usize>, x: &mut Lanes<K>| {
-            let l = &self.forward[self.panels.entries(0..supernodes.start)..];
-            on_widest(Sweep { direction: Direction::Forward, panels: &self.panels, l, supernodes, x });
-        };
-        let Some(Halves { middle, end: joined }) = self.panels.halves else { return sweep(0..end, x) };
-        let own = self.panels.unknowns_of(middle..joined);
-        let mut second = vec![[0.; K]; x.len()];
-        second[own.clone()].copy_from_slice(&x[own.clone()]);
-        self.at_once::<K>(|| sweep(0..middle, x), || sweep(middle..joined, &mut second));
-        x[own.clone()].copy_from_slice(&second[own.clone()]);
-        x[own.end..].iter_mut().zip(&second[own.end..]).for_each(|(x, change)| *x = minus(*x, -1., *change));
-        sweep(joined..end, x);
+        on_widest(Sweep { direction: Direction::Forward, panels: &self.panels, l: &self.forward, supernodes, x });
     }
 
-    fn sweep_backward<const K: usize>(&self, end: usize, x: &mut Lanes<K>) {
+    fn sweep_backward<const K: usize>(&self, supernodes: Range<usize>, x: &mut Lanes<K>) {
         assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
-        let sweep = |supernodes: Range<usize>, x: &mut Lanes<K>| {
-            let l = &self.backward[self.panels.entries(supernodes.end..self.panels.count())..];
-            on_widest(Sweep { direction: Direction::Backward, panels: &self.panels, l, supernodes, x });
-        };
-        let Some(Halves { middle, end: joined }) = self.panels.halves else { return sweep(0..end, x) };
-        sweep(joined..end, x);
-        let own = self.panels.unknowns_of(middle..joined);
-        let mut second = vec![[0.; K]; x.len()];
-        second[own.start..].copy_from_slice(&x[own.start..]);
-        self.at_once::<K>(|| sweep(0..middle, x), || sweep(middle..joined, &mut second));
-        x[own.clone()].copy_from_slice(&second[own]);
-    }
-
-    /// Several lanes come from a sweep of cases, which has a thread for every processor already.
-    fn at_once<const K: usize>(&self, first: impl FnOnce() + Send, second: impl FnOnce() + Send) {
-        if self.threads > 1 && K == 1 {
-            both(first, second);
-        } else {
-            first();
-            second();
-        }
+        let behind = self.panels.entries(supernodes.end..self.panels.count());
+        let l = &self.backward[behind..];
+        on_widest(Sweep { direction: Direction::Backward, panels: &self.panels, l, supernodes, x });
     }
 }
 
@@ -270,31 +238,6 @@ mod tests {
         factor.backward(&mut backward);
         assert!(distance(&forward, &x) < 1e-13);
         assert!(distance(&backward, &x) < 1e-13);
-    }
-
-    /// To the last digit; and the solution is the right one, half from each thread.
-    #[test]
-    fn two_threads_give_the_digits_of_one() {
-        let a = grid_matrix(160, 130, &[3, 4, 5]);
-        for border in [a.rows(), a.rows() - 5] {
-            let factor = Symbolic::bordered(&a, border).factor(&a).expect("positive definite");
-            let halves = factor.panels.halves.expect("so many unknowns are worth a thread");
-            let total = factor.panels.entries(0..factor.panels.border);
-            let parts = [0..halves.middle, halves.middle..halves.end].map(|part| factor.panels.entries(part));
-            assert!(parts.iter().all(|&part| 3 * part > total), "{parts:?} of {total}");
-            let exact = random(a.rows(), 7);
-            let b = multiply(&a, &exact);
-            let solved = |threads: usize| {
-                let factor = Symbolic::bordered(&a, border).factor(&a).expect("positive definite").on_threads(threads);
-                let (mut x, mut condensed) = (b.clone(), b.clone());
-                factor.solve(&mut x);
-                factor.condense(&mut condensed);
-                factor.expand(&mut condensed);
-                (x, condensed)
-            };
-            assert!(distance(&solved(1).0, &exact) < 1e-13);
-            assert_eq!(solved(1), solved(2));
-        }
     }
 
     /// To the last digit: a run among others gives what it gives alone.

@@ -108,7 +108,7 @@ pub fn command(request: &Request) -> Result<String> {
     let factoring = Instant::now();
     let rest = under_gravity(&mut prepared)?;
     let prepared = prepared;
-    let (state, origin, mut march) = ready_to_march(&prepared, rest, None)?;
+    let (state, origin, mut march) = ready_to_march(&prepared, rest)?;
     let timing = Timing {
         mesh_s: meshed.took.as_secs_f64(),
         setup_s: prepared.setup.as_secs_f64(),
@@ -135,51 +135,47 @@ pub fn command(request: &Request) -> Result<String> {
     Ok(summary.table() + &format!("results in {}\n", folder.path().display()))
 }
 
-/// The state at t = 0, the unknowns in equilibrium under gravity (which is `rest`), and the march from there.
-///
-/// `like` marches another system that differs in loads and friction only: its factor is taken.
-pub(super) fn ready_to_march<'a>(
-    prepared: &'a Prepared,
-    rest: State,
-    like: Option<&March<'a>>,
-) -> Result<(State, Vec<f64>, March<'a>)> {
+/// The state at t = 0, the unknowns that displacements are counted from, and the march from there.
+fn ready_to_march(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>, March<'_>)> {
+    let (start, march) = both(|| at_start(prepared, rest), || new_march(prepared));
+    let (state, origin) = start?;
+    Ok((state, origin, march?))
+}
+
+/// The march of a case, its matrix factored.
+pub(super) fn new_march(prepared: &Prepared) -> Result<March<'_>> {
     let Prepared { model, system, symbolic, .. } = prepared;
     let scheme = match model.analysis {
         Analysis::Static => Scheme::Static,
         Analysis::Dynamic => Scheme::Dynamic(model.integrator),
     };
-    let march = || match like {
-        Some(like) => Ok(like.sharing_factor(system)),
-        None => March::new(system, symbolic, scheme, model.time.step, model.newton),
-    };
-    let (start, march) = both(|| at_start(prepared, rest), march);
-    let (state, origin) = start?;
-    if !state.is_finite() {
-        return Err(Error::input(
-            "the state at t = 0 has numbers too large for a computer: check loads, gravity, densities and the initial motion",
-        ));
-    }
-    let march = march.map_err(|e| prepared.not_definite(e))?;
-    Ok((state, origin, march.with_energy_budget(model.time.energy_budget)))
+    let march = March::new(system, symbolic, scheme, model.time.step, model.newton);
+    Ok(march.map_err(|e| prepared.not_definite(e))?.with_energy_budget(model.time.energy_budget))
 }
 
-/// The state at t = 0, and the unknowns that displacements are counted from.
-fn at_start(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>)> {
+/// The state at t = 0 from equilibrium under gravity, and the unknowns that displacements are counted from.
+pub(super) fn at_start(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>)> {
     let Prepared { model, system, symbolic, .. } = prepared;
-    match model.analysis {
+    let (state, origin) = match model.analysis {
         Analysis::Static => {
             let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
             let start = at_once.step(system, &rest).map_err(|why| unsettled::at_start(prepared, &why))?;
-            Ok((start.state, State::at_rest(system).q))
+            (start.state, State::at_rest(system).q)
         }
         Analysis::Dynamic => {
             let Initial { displacement, velocity } = &model.initial;
             let origin = rest.q.clone();
             let moving = start::with_motion(system, rest, displacement, velocity);
             let state = start::with_acceleration(system, symbolic, moving, model.start);
-            Ok((state.map_err(|e| prepared.not_definite(e))?, origin))
+            (state.map_err(|e| prepared.not_definite(e))?, origin)
         }
+    };
+    if !state.is_finite() {
+        return Err(Error::input(
+            "the state at t = 0 has numbers too large for a computer: check loads, gravity, densities and the initial motion",
+        ));
     }
+    Ok((state, origin))
 }
 
 /// Equilibrium under gravity. Boundaries that let waves out hold the ground in it, and go on to push as they did.

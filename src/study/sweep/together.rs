@@ -9,7 +9,7 @@ use crate::solve::step::MOST_TOGETHER;
 use crate::solve::system::State;
 use crate::study::prepare::Prepared;
 use crate::study::recorder::{Ending, Recorder};
-use crate::study::run::{interrupted, ready_to_march, under_gravity};
+use crate::study::run::{at_start, interrupted, new_march, under_gravity};
 use crate::study::unsettled;
 use crate::{Error, Result};
 use std::num::NonZero;
@@ -44,7 +44,7 @@ pub fn solve(group: Vec<(Job, Model)>, frames: bool) -> Result<Vec<(Job, Option<
         }
     }
     let Some(first) = ready.first() else { return Ok(ended) };
-    let (.., lead) = ready_to_march(&first.prepared, first.rest.clone(), None)?;
+    let lead = new_march(&first.prepared)?;
 
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
     let together = ready.len().div_ceil(threads).min(MOST_TOGETHER);
@@ -80,22 +80,27 @@ struct Running<'a> {
 
 /// Up to [`MOST_TOGETHER`] runs from beginning to end: (name, error) of those that do not get there.
 fn march_together(runs: &[Ready], lead: &March, frames: bool, started: Instant) -> Result<Vec<(String, Error)>> {
-    let folders: Vec<Folder> =
-        runs.iter().map(|r| Folder::prepare(&r.job.folder, &r.job.variant.name)).collect::<Result<_>>()?;
-    let mut errors = Vec::new();
-    let (mut running, mut states) = (Vec::new(), Vec::new());
-    for (run, folder) in runs.iter().zip(&folders) {
-        match ready_to_march(&run.prepared, run.rest.clone(), Some(lead)) {
+    let (mut begun, mut errors) = (Vec::new(), Vec::new());
+    for run in runs {
+        match at_start(&run.prepared, run.rest.clone()) {
             Err(error) => errors.push((run.job.variant.name.clone(), error)),
-            Ok((state, origin, march)) => {
-                let recorder = Recorder::start(&run.prepared, folder, &state, origin, frames)?;
-                running.push(Running { run, march, recorder, folder });
-                states.push(state);
-            }
+            Ok((state, origin)) => begun.push((run, state, origin)),
         }
+    }
+    let folder = |run: &Ready| Folder::prepare(&run.job.folder, &run.job.variant.name);
+    let folders: Vec<Folder> = begun.iter().map(|(run, ..)| folder(run)).collect::<Result<_>>()?;
+    let (mut running, mut states) = (Vec::new(), Vec::new());
+    for ((run, state, origin), folder) in begun.into_iter().zip(&folders) {
+        let march = lead.sharing_factor(&run.prepared.system);
+        let recorder = Recorder::start(&run.prepared, folder, &state, origin, frames)?;
+        running.push(Running { run, march, recorder, folder });
+        states.push(state);
     }
     let steps = runs.first().map_or(0, |r| r.prepared.model.time.steps);
     for number in 1..=steps {
+        if running.is_empty() {
+            return Ok(errors);
+        }
         if interrupted() {
             for (run, state) in running.into_iter().zip(states) {
                 let sentence = format!("interrupted at t = {} s, after step {} of {steps}", state.time, number - 1);
@@ -121,9 +126,6 @@ fn march_together(runs: &[Ready], lead: &March, frames: bool, started: Instant) 
             }
         }
         (running, states) = (going_on, next);
-        if running.is_empty() {
-            return Ok(errors);
-        }
     }
     for run in running {
         let folder = run.folder;
