@@ -13,6 +13,7 @@ pub mod ring;
 pub mod ring_table;
 pub mod series;
 pub mod sites;
+pub mod snapshots;
 pub mod spectrum;
 pub mod stress;
 pub mod summary;

@@ -16,8 +16,8 @@ use std::time::{Duration, Instant};
 const MODES: usize = 4;
 
 pub struct Prepared {
-    pub model: Model,
-    pub system: System,
+    pub model: Arc<Model>,
+    pub system: Arc<System>,
     pub symbolic: Arc<Symbolic>,
     pub modes: Vec<NaturalMode>,
     pub rayleigh: Rayleigh,
@@ -59,15 +59,24 @@ impl Prepared {
         model.warnings.extend(damping::beyond_the_boundaries(&model, rayleigh.alpha));
         let joints = model.damping.is_some_and(|d| d.interfaces);
         let system = system.with_damping(rayleigh, joints);
-        Ok(Prepared { model, system, symbolic, modes, rayleigh, orders: orders.into(), setup, factor: start.elapsed() })
+        Ok(Prepared {
+            model: model.into(),
+            system: system.into(),
+            symbolic,
+            modes,
+            rayleigh,
+            orders: orders.into(),
+            setup,
+            factor: start.elapsed(),
+        })
     }
 
     /// Likewise for a model that differs in loads and friction only: nothing is assembled, ordered or solved again.
     pub fn with_loads_of(&self, mut model: Model) -> Result<Prepared> {
         model.warnings.extend(damping::beyond_the_boundaries(&model, self.rayleigh.alpha));
         Ok(Prepared {
-            system: self.system.with_loads_of(&model)?,
-            model,
+            system: self.system.with_loads_of(&model)?.into(),
+            model: model.into(),
             symbolic: self.symbolic.clone(),
             modes: self.modes.clone(),
             rayleigh: self.rayleigh,

@@ -4,12 +4,8 @@ use super::prepare::Prepared;
 use crate::Result;
 use crate::results::file;
 use crate::results::folder::{Folder, STATUS};
-use crate::results::frame::{Frame, Grid};
 use crate::results::histories::Histories;
-use crate::results::motion::{Motion, Spans};
-use crate::results::ring::rings;
-use crate::results::ring_table::RingTable;
-use crate::results::series::Series;
+use crate::results::snapshots::{Photographer, Snapshots};
 use crate::results::summary::{
     ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
 };
@@ -27,15 +23,11 @@ pub struct Recorder<'a> {
     /// the unknowns in equilibrium under gravity, which displacements are counted from
     origin: Vec<f64>,
     histories: Histories,
-    rings: RingTable,
-    /// none where no frames are asked for
-    series: Option<Series>,
+    photographer: Photographer,
     status: File,
     status_lines: String,
     ledger: Ledger,
     contact: ContactRecord,
-    motion: Motion,
-    spans: Spans,
     steps: usize,
     iterations: usize,
     started: Instant,
@@ -61,23 +53,18 @@ impl<'a> Recorder<'a> {
         origin: Vec<f64>,
         frames: bool,
     ) -> Result<Recorder<'a>> {
-        let series =
-            || Series::start(folder.path(), folder.name(), Grid::new(&prepared.model, &prepared.system, &origin));
+        let Prepared { model, system, .. } = prepared;
+        let snapshots =
+            Snapshots::new(model.clone(), system.clone(), origin.clone(), folder.path(), folder.name(), frames)?;
         let path = folder.file(STATUS);
         let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
         let mut recorder = Recorder {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
-            rings: RingTable::create(
-                &folder.file("rings.csv"),
-                rings(&prepared.model, &prepared.system, prepared.rayleigh),
-            )?,
-            series: frames.then(series).transpose()?,
+            photographer: Photographer::new(snapshots)?,
             status,
             status_lines: STATUS_HEADER.into(),
             ledger: Ledger::start(&prepared.system, state),
             contact: ContactRecord::default(),
-            motion: Motion::default(),
-            spans: Spans::new(&prepared.model),
             steps: 0,
             iterations: 0,
             started: Instant::now(),
@@ -116,10 +103,7 @@ impl<'a> Recorder<'a> {
 
     fn write_frame(&mut self, state: &State) -> Result<()> {
         self.flush()?;
-        self.motion = self.motion.after(&self.spans, &self.prepared.model.mesh, &self.prepared.system, state);
-        self.rings.record(&self.prepared.model, &self.prepared.system, state, &self.origin)?;
-        let Some(series) = &mut self.series else { return Ok(()) };
-        series.push(Frame::of(&self.prepared.model, &self.prepared.system, state))
+        self.photographer.take(state)
     }
 
     fn flush(&mut self) -> Result<()> {
@@ -160,7 +144,7 @@ impl<'a> Recorder<'a> {
     pub fn finish(mut self, ending: Ending, inputs: Inputs, title: &str, timing: Timing) -> Result<Summary> {
         self.flush()?;
         let steps_s = self.started.elapsed().as_secs_f64();
-        let written = self.series.map(Series::finish).transpose()?.unwrap_or_default();
+        let snapshots = self.photographer.finish()?;
         let model = &self.prepared.model;
         Ok(Summary {
             status: match ending {
@@ -180,18 +164,18 @@ impl<'a> Recorder<'a> {
             rayleigh: self.prepared.rayleigh,
             steps: self.steps,
             iterations: self.iterations,
-            frames: written.frames,
+            frames: snapshots.frame_count(),
             contact: self.contact,
             probes: probe_places(self.prepared),
             peaks: self.histories.peaks(),
             energy: EnergyRecord::from(&self.ledger),
-            timing: Timing { steps_s, output_s: written.busy.as_secs_f64(), ..timing },
+            timing: Timing { steps_s, output_s: snapshots.busy.as_secs_f64(), ..timing },
             warnings: model
                 .warnings
                 .iter()
                 .cloned()
                 .chain(self.ledger.warning())
-                .chain(self.motion.warnings())
+                .chain(snapshots.motion.warnings())
                 .collect(),
         })
     }

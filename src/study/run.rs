@@ -22,6 +22,7 @@ use crate::threads::both;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::Instant;
@@ -190,7 +191,7 @@ pub(super) fn under_gravity(prepared: &mut Prepared) -> Result<State> {
     let held = System::ordered(&prepared.model.held(), &prepared.orders)?;
     let rest = settle(prepared, &held, &held.symbolic())?;
     let (state, reactions) = start::released(&prepared.system, &held, &rest);
-    prepared.system.reactions = reactions;
+    Arc::get_mut(&mut prepared.system).expect("nobody has taken a share of it yet").reactions = reactions;
     Ok(state)
 }
 
