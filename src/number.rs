@@ -23,6 +23,15 @@ pub fn fixed(decimals: usize, value: f64) -> String {
     }
 }
 
+/// In nine places: four decimals, or three digits where those would show nothing.
+pub fn readable(value: f64) -> String {
+    match value.abs() {
+        0. => format!("{:9.4}", 0.),
+        size if (0.01..1e4).contains(&size) => format!("{value:9.4}"),
+        _ => format!("{value:9.2e}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{fixed, short, short_to};

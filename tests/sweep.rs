@@ -2,9 +2,11 @@
 
 mod program;
 
-use program::Bench;
+use program::{Bench, CASE, Outcome, code_of};
 use serde_json::Value;
 use std::fs;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// Six runs over one factor, and six over another: the time step changes the matrix.
 const PLAN: &str = r#"{
@@ -92,7 +94,7 @@ fn the_table_has_a_row_a_run() {
 #[test]
 fn a_bad_plan_is_refused_before_anything_runs() {
     let bench = Bench::new("sweep-bad");
-    let rows: [(&str, &[&str]); 10] = [
+    let rows: [(&str, &[&str]); 14] = [
         ("{", &["bad.json", "line 1", "interfaces.interface_left.friction"]),
         (r#"{"case": "block.json", "geo": {"crown": [4, 4.0]}}"#, &["geo.crown", "4.0 stands twice"]),
         (r#"{"case": "block.json", "set": {"time.step": ["1 ms", "1 ms"]}}"#, &["set.time.step", "stands twice"]),
@@ -103,6 +105,24 @@ fn a_bad_plan_is_refused_before_anything_runs() {
         (r#"{"case": "block.json", "geo": {"width": ["wide"]}}"#, &["geo.width", "no number"]),
         (r#"{"case": "block.json", "geo": {"a": [1]}, "geo": {"b": [2]}}"#, &["bad.json", "\"geo\" stands twice"]),
         (r#"{"case": "block.json", "runs": [1]}"#, &["bad.json", "runs"]),
+        // one and the same case however it is written
+        (
+            r#"{"case": "block.json", "set": {"time.step": ["0.2 ms", 0.0002]}}"#,
+            &["step0.2ms and step0.0002 are the same case"],
+        ),
+        (
+            r#"{"case": "block.json", "set": {"loads.top.pressure.peak": ["100 Pa", "50 kPa", "0.05 MPa"]}}"#,
+            &["peak50kPa and peak0.05MPa are the same case"],
+        ),
+        (
+            r#"{"case": "block.json", "set": {"materials.gruond": [{"young": 1}]}}"#,
+            &["coralpipe: block.json with --set materials.gruond"],
+        ),
+        // what no case fits the mesh by is seen before a folder is made
+        (
+            r#"{"case": "block.json", "set": {"supports": [{"foot": ["x"]}, {"foot": ["y"]}]}}"#,
+            &["supports#1: ", "foot"],
+        ),
     ];
     for (plan, words) in rows {
         bench.write("bad.json", plan);
@@ -115,16 +135,232 @@ fn a_bad_plan_is_refused_before_anything_runs() {
     }
 }
 
-/// As on a disk that is full after the first run: the second one's folder cannot be made.
+/// The table as column -> cell of each row.
+fn rows(bench: &Bench, file: &str) -> Vec<Vec<(String, String)>> {
+    let text = fs::read_to_string(bench.path(file)).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(String::from).collect::<Vec<_>>());
+    let columns = lines.next().unwrap();
+    lines.map(|cells| columns.iter().cloned().zip(cells).collect()).collect()
+}
+
+fn cell<'a>(row: &'a [(String, String)], column: &str) -> &'a str {
+    &row.iter().find(|(c, _)| c == column).unwrap_or_else(|| panic!("no {column} in {row:?}")).1
+}
+
+fn statuses(bench: &Bench, file: &str) -> Vec<String> {
+    rows(bench, file).iter().map(|row| cell(row, "status").to_string()).collect()
+}
+
+/// A plan over two peaks and what else is given.
+fn plan(more: &str) -> String {
+    format!(r#"{{ "case": "block.json", "set": {{ "loads.top.pressure.peak": ["50 kPa", "60 kPa"]{more} }} }}"#)
+}
+
+fn sweep(bench: &Bench, text: &str) -> Outcome {
+    bench.write("plan.json", text);
+    bench.run_line("sweep plan.json")
+}
+
+/// The names of the folders are the same: only what they were made from tells the results apart.
 #[test]
-fn a_sweep_that_cannot_go_on_says_what_is_done() {
-    let bench = Bench::new("sweep-full");
-    bench.write("plan.json", r#"{ "case": "block.json", "set": { "damping.ratio": [0.02, 0.05] } }"#);
-    fs::create_dir_all(bench.path("output/plan")).unwrap();
-    bench.write("output/plan/ratio0.05", "in the way");
-    let outcome = bench.run_line("sweep plan.json");
+fn numbers_of_an_earlier_plan_are_never_in_the_table() {
+    let bench = Bench::new("sweep-stale");
+    let first = sweep(&bench, &plan(""));
+    assert_eq!((first.code, statuses(&bench, "output/plan/sweep.csv")), (Some(0), vec!["done".to_string(); 2]));
+    let refused = sweep(&bench, &plan(r#", "damping": [{ "ratio": 0.05, "modes": [1, 190] }]"#));
+    assert_eq!(refused.code, Some(1), "bad input, not a lack of convergence: {}", refused.stderr);
+    assert!(refused.stderr.contains("2 of them replace results of another case"), "{}", refused.stderr);
+    for row in rows(&bench, "output/plan/sweep.csv") {
+        assert_eq!(cell(&row, "status"), "refused");
+        assert!(row.iter().all(|(column, _)| column != "f1" && column != "Q.uy"), "{row:?}");
+    }
+    assert!(refused.stdout.contains("peak50kPa  refused") && !refused.stdout.contains("gap"), "{}", refused.stdout);
+}
+
+/// Two runs without end are asked to stop, those over another factor wait for them: "not run", though their folders hold
+/// results of the case before it was changed.
+#[test]
+fn an_interrupt_leaves_a_table_of_what_is_done_and_says_how_to_go_on() {
+    let bench = Bench::new("sweep-interrupt");
+    assert_eq!(sweep(&bench, &plan(r#", "time.step": ["0.5 ms", "0.25 ms"]"#)).code, Some(0));
+    bench.write("block.json", CASE.replace("\"10 ms\"", "\"1000 s\"").replace("\"1 ms\"", "\"1 s\""));
+    let begun = ["50", "60"].map(|peak| bench.path(format!("output/plan/peak{peak}kPa_step0.5ms/run.sta")));
+    begun.iter().for_each(|file| fs::remove_file(file).unwrap());
+    let (stdout, stderr) = (bench.path("stdout"), bench.path("stderr"));
+    let mut program = bench.program(&["sweep", "plan.json"]);
+    let file = |path| Stdio::from(fs::File::create(path).unwrap());
+    let child = program.stdout(file(&stdout)).stderr(file(&stderr)).spawn().unwrap();
+    let started = Instant::now();
+    while !begun.iter().all(|file| file.exists()) && started.elapsed() < Duration::from_secs(30) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(code_of(child), Some(130));
+    let (stdout, stderr) = (fs::read_to_string(stdout).unwrap(), fs::read_to_string(stderr).unwrap());
+    let found = statuses(&bench, "output/plan/sweep.csv");
+    assert_eq!(found, ["interrupted", "not run", "interrupted", "not run"], "{stdout}{stderr}");
+    assert_eq!(stdout.lines().count(), 5, "a line a run and the folder: {stdout}");
+    assert!(!stdout.contains("gap"), "numbers of the earlier case: {stdout}");
+    let last = stderr.lines().last().unwrap();
+    assert!(last.starts_with("coralpipe: interrupted; 0 of 4 runs are done and stay in output/plan"), "{last}");
+}
+
+#[test]
+fn a_run_is_done_again_where_files_are_lost_or_frames_are_asked_for() {
+    let bench = Bench::new("sweep-lost");
+    assert_eq!(sweep(&bench, &plan("")).code, Some(0));
+    let before =
+        |outcome: Outcome| outcome.stderr.split_once(" done before").unwrap().0.rsplit(' ').next().unwrap().to_string();
+    let folder = bench.path("output/plan/peak50kPa");
+    for file in ["histories.csv", "rings.csv", "run.sta"] {
+        fs::remove_file(folder.join(file)).unwrap();
+        assert_eq!(before(sweep(&bench, &plan(""))), "1", "{file}");
+    }
+    fs::OpenOptions::new().write(true).open(folder.join("histories.csv")).unwrap().set_len(1000).unwrap();
+    assert_eq!(before(sweep(&bench, &plan(""))), "1", "cut");
+
+    let with_frames = plan("").replace("\"set\"", "\"frames\": true, \"set\"");
+    assert_eq!(before(sweep(&bench, &with_frames)), "0");
+    assert_eq!(before(sweep(&bench, &with_frames)), "2");
+    fs::remove_file(folder.join("frames/peak50kPa_00003.vtu")).unwrap();
+    assert_eq!(before(sweep(&bench, &plan(""))), "2", "frames are not asked for");
+    assert_eq!(before(sweep(&bench, &with_frames)), "1", "a frame is lost");
+    fs::remove_file(folder.join("peak50kPa.pvd")).unwrap();
+    assert_eq!(before(sweep(&bench, &with_frames)), "1", "the series is lost");
+}
+
+#[test]
+fn warnings_of_a_run_are_told_and_counted() {
+    let bench = Bench::new("sweep-warnings");
+    let outcome =
+        sweep(&bench, r#"{ "case": "block.json", "set": { "loads.top.pressure.peak": ["10 GPa", "1 kPa"] } }"#);
+    assert_eq!(outcome.code, Some(0));
+    let rows = rows(&bench, "output/plan/sweep.csv");
+    let text = fs::read_to_string(bench.path("output/plan/peak10GPa/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&text).unwrap();
+    let warnings = summary["warnings"].as_array().unwrap();
+    assert!(!warnings.is_empty() && cell(&rows[0], "warnings") == warnings.len().to_string());
+    assert_eq!(cell(&rows[1], "warnings"), "0");
+    for warning in warnings {
+        assert!(outcome.stderr.contains(&format!("warning: {}", warning.as_str().unwrap())), "{}", outcome.stderr);
+    }
+    let marked: Vec<bool> = outcome.stdout.lines().map(|line| line.contains(" warning")).collect();
+    assert_eq!(marked, [true, false, false], "{}", outcome.stdout);
+}
+
+#[test]
+fn the_table_has_the_columns_of_all_rows() {
+    let bench = Bench::new("sweep-columns");
+    let outcome = sweep(&bench, r#"{ "case": "block.json", "set": { "probes": [["Q"], ["P"], ["P", "Q"]] } }"#);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    let text = fs::read_to_string(bench.path("output/plan/sweep.csv")).unwrap();
+    let header = text.lines().next().unwrap();
+    assert!(header.ends_with("Q.ux,Q.uy,Q.vx,Q.vy,Q.ax,Q.ay,P.ux,P.uy,P.vx,P.vy,P.ax,P.ay"), "{header}");
+}
+
+#[test]
+fn a_sweep_writes_into_folders_of_its_own_only() {
+    let bench = Bench::new("sweep-foreign");
+    bench.write("plan.json", plan(""));
+    for (folder, file, content) in [("notes", "notes.txt", "mine"), ("table", "sweep.csv", "my,table")] {
+        fs::create_dir_all(bench.path(folder)).unwrap();
+        bench.write(format!("{folder}/{file}"), content);
+        let outcome = bench.run_line(&format!("sweep plan.json --out {folder}"));
+        assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+        assert!(outcome.stderr.contains(&format!("{folder} is no folder of a sweep: it holds {file};")));
+        assert_eq!(fs::read_to_string(bench.path(format!("{folder}/{file}"))).unwrap(), content);
+        assert_eq!(fs::read_dir(bench.path(folder)).unwrap().count(), 1);
+    }
+    assert_eq!(bench.run_line("sweep plan.json --out own").code, Some(0));
+    let nested = bench.run_line("sweep plan.json --out own/peak50kPa");
+    assert!(nested.code == Some(1) && nested.stderr.contains("no folder of a sweep"), "{}", nested.stderr);
+    // another plan of the same name
+    fs::create_dir(bench.path("other")).unwrap();
+    bench.write("other/plan.json", plan("").replace("block.json", "../block.json"));
+    let other = bench.run_line("sweep other/plan.json --out own");
+    assert!(other.stderr.contains("the table in own is of another plan"), "{}", other.stderr);
+    // another process
+    let lock = fs::File::open(bench.path("own")).unwrap();
+    lock.lock().unwrap();
+    let locked = bench.run_line("sweep plan.json --out own");
+    assert!(locked.code == Some(1) && locked.stderr.contains("another run is writing into own"), "{}", locked.stderr);
+}
+
+/// A step has no duration; a folder with a user's file in it is not written to.
+#[test]
+fn runs_that_cannot_start_leave_the_others_alone() {
+    let bench = Bench::new("sweep-refused");
+    let laws = r#"{ "case": "block.json", "set": { "loads.top.pressure.law": ["linear", "half_sine", "step"] } }"#;
+    let outcome = sweep(&bench, laws);
     assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
-    assert!(outcome.stderr.contains("1 of 2 runs are done and stay in output/plan"), "{}", outcome.stderr);
-    fs::remove_file(bench.path("output/plan/ratio0.05")).unwrap();
-    assert!(bench.run_line("sweep plan.json").stderr.contains("2 runs, 1 done before"));
+    assert_eq!(statuses(&bench, "output/plan/sweep.csv"), ["done", "done", "refused"]);
+    assert!(
+        outcome
+            .stderr
+            .lines()
+            .last()
+            .unwrap()
+            .contains("1 of 3 runs did not get to their end, the first of them lawstep")
+    );
+
+    let bench = Bench::new("sweep-in-the-way");
+    assert_eq!(sweep(&bench, &plan("")).code, Some(0));
+    fs::remove_dir_all(bench.path("output/plan/peak60kPa")).unwrap();
+    bench.write("output/plan/peak60kPa", "in the way");
+    let outcome = bench.run_line("sweep plan.json");
+    assert_eq!(
+        (outcome.code, statuses(&bench, "output/plan/sweep.csv")),
+        (Some(1), vec!["done".into(), "refused".into()])
+    );
+    assert!(!outcome.stderr.contains("the same command goes on"), "it does not: {}", outcome.stderr);
+}
+
+/// Files may have so many blocks of 1024 bytes: what does not fit is refused in the middle of a line.
+#[test]
+fn a_full_disk_leaves_whole_lines_and_says_what_is_done() {
+    let bench = Bench::new("sweep-full");
+    let long = r#"{ "case": "block.json", "set": { "time.end": ["5 ms", "500 ms"] } }"#;
+    bench.write("plan.json", long);
+    let mut limited = Command::new("bash");
+    limited.args(["-c", "trap '' XFSZ; ulimit -f 20; exec \"$0\" sweep plan.json", env!("CARGO_BIN_EXE_coralpipe")]);
+    let outcome = limited.current_dir(&bench.folder).output().unwrap();
+    let stderr = String::from_utf8_lossy(&outcome.stderr);
+    assert_eq!(outcome.status.code(), Some(1), "{stderr}");
+    let last = stderr.lines().last().unwrap();
+    assert!(
+        last.contains("cannot be written") && last.contains("1 of 2 runs are done and stay in output/plan"),
+        "{last}"
+    );
+    for file in ["histories.csv", "run.sta"] {
+        let text = fs::read_to_string(bench.path("output/plan/end500ms").join(file)).unwrap();
+        assert!(text.is_empty() || text.ends_with('\n'), "{file} ends in {:?}", &text[text.len() - 40..]);
+    }
+    assert_eq!(statuses(&bench, "output/plan/sweep.csv"), ["done", "not run"]);
+    assert!(sweep(&bench, long).stderr.contains("2 runs, 1 done before"));
+    assert_eq!(statuses(&bench, "output/plan/sweep.csv"), ["done", "done"]);
+}
+
+/// Files on their way have the id of the process that writes them.
+#[test]
+fn what_a_killed_sweep_left_on_its_way_is_swept_up() {
+    let bench = Bench::new("sweep-parts");
+    assert_eq!(sweep(&bench, &plan("")).code, Some(0));
+    let parts = ["output/plan/peak50kPa/.peak50kPa.pvd.27565.part", "output/plan/.sweep.csv.27565.part"];
+    let others = ["output/plan/peak50kPa/.mine.part", "output/plan/peak50kPa/mine.27565.part"];
+    parts.iter().chain(&others).for_each(|file| bench.write(file, "half"));
+    fs::remove_file(bench.path("output/plan/peak50kPa/run.sta")).unwrap();
+    assert_eq!(bench.run_line("sweep plan.json").code, Some(0));
+    assert_eq!(parts.map(|file| bench.path(file).exists()), [false; 2]);
+    assert_eq!(others.map(|file| bench.path(file).exists()), [true; 2]);
+}
+
+#[test]
+fn a_sweep_counts_as_it_goes_and_a_plan_may_begin_with_a_byte_order_mark() {
+    let bench = Bench::new("sweep-told");
+    bench.write("block.json", format!("\u{feff}{CASE}"));
+    let outcome = sweep(&bench, &format!("\u{feff}{}", plan("")));
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    for count in ["1 of 2, peak", "1 left, about ", "2 of 2, peak"] {
+        assert!(outcome.stderr.contains(count), "no {count:?}: {}", outcome.stderr);
+    }
 }

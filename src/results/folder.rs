@@ -6,6 +6,7 @@
 use super::file;
 use crate::{Error, Result};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -13,7 +14,7 @@ pub struct Folder {
     path: PathBuf,
     name: String,
     /// the folder itself, locked for this process until it ends, however it ends; none where the disk knows no locks
-    _lock: Option<File>,
+    lock: Option<File>,
 }
 
 /// Its presence says that the run came to an end, its status to which.
@@ -45,7 +46,10 @@ impl Folder {
     pub fn prepare(path: &Path, name: &str) -> Result<Folder> {
         file::create_folder(path)?;
         refuse_foreign(path)?;
-        let folder = Folder { path: path.into(), name: name.into(), _lock: lock(path)? };
+        let folder = Folder { path: path.into(), name: name.into(), lock: lock(path)? };
+        if folder.lock.is_some() {
+            file::remove_parts(path);
+        }
         let (previous, moving) = (folder.file(PREVIOUS), folder.file(MOVING));
         let here = worth(path);
         if moving.exists() || (here > Worth::Nothing && here >= worth(&previous)) {
@@ -83,6 +87,12 @@ impl Folder {
         self.path.join(name)
     }
 
+    /// The tables and the series that a run has written, with their sizes [bytes].
+    pub fn sizes(&self) -> BTreeMap<String, u64> {
+        let names = self.entries().into_iter().filter(|name| name != SUMMARY);
+        names.filter_map(|name| size(&self.file(&name)).map(|bytes| (name, bytes))).collect()
+    }
+
     pub fn write_summary(&self, content: &str) -> Result<()> {
         file::replace(&self.file(SUMMARY), content.as_bytes())
     }
@@ -102,6 +112,20 @@ pub fn summary(folder: &Path) -> Option<Value> {
     serde_json::from_slice(&std::fs::read(folder.join(SUMMARY)).ok()?).ok()
 }
 
+/// Whether all that a summary names is there and whole; frames count only where they are asked for.
+pub fn is_whole(folder: &Path, summary: &Value, frames: bool) -> bool {
+    let Some(files) = summary["files"].as_object() else { return false };
+    let count = || std::fs::read_dir(folder.join("frames")).map_or(0, |entries| entries.count() as u64);
+    let written = summary["frames"].as_u64();
+    files.iter().all(|(name, bytes)| (name.ends_with(".pvd") && !frames) || size(&folder.join(name)) == bytes.as_u64())
+        && (!frames || written.is_some_and(|written| written > 0 && count() >= written))
+}
+
+/// Of a file [bytes].
+fn size(path: &Path) -> Option<u64> {
+    path.metadata().ok().filter(|m| m.is_file()).map(|m| m.len())
+}
+
 /// A folder that is not empty must show that its results are ours: else a slip such as `--out /` writes among other things.
 pub fn refuse_foreign(path: &Path) -> Result<()> {
     let ours = |name: &str| path.join(name).exists();
@@ -112,23 +136,30 @@ pub fn refuse_foreign(path: &Path) -> Result<()> {
     {
         return Ok(());
     }
+    refuse_filled(path, &BESIDE, "folder of results")
+}
+
+/// A folder may hold nothing that is not `beside`: else it is none of this `kind`.
+pub fn refuse_filled(path: &Path, beside: &[&str], kind: &str) -> Result<()> {
     let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
     let mut foreign: Vec<String> = entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
-    foreign.retain(|name| !BESIDE.contains(&name.as_str()));
+    foreign.retain(|name| !beside.contains(&name.as_str()));
     foreign.sort();
     let more = if foreign.len() > 4 { format!(" and {} more", foreign.len() - 4) } else { String::new() };
     match foreign.is_empty() {
         true => Ok(()),
         false => Err(Error::input(format!(
-            "{} is no folder of results: it holds {}{more}; choose a new or an empty folder with --out",
+            "{} is no {kind}: it holds {}{more}; choose a new or an empty folder with --out",
             path.display(),
             foreign[..foreign.len().min(4)].join(", ")
         ))),
     }
 }
 
-/// Locks the folder, which leaves no file behind.
-fn lock(path: &Path) -> Result<Option<File>> {
+/// Locks the folder for this process, which leaves no file behind; none where the disk knows no locks.
+///
+/// Error: another process has it.
+pub fn lock(path: &Path) -> Result<Option<File>> {
     let Ok(folder) = File::open(path) else { return Ok(None) };
     match folder.try_lock() {
         Err(TryLockError::WouldBlock) => Err(Error::input(format!(

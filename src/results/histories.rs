@@ -1,14 +1,12 @@
 //! Motion of the probes at every step, as CSV, and their peaks.
 
-use super::file;
+use super::lines::Lines;
 use crate::Result;
 use crate::model::probes::NodeProbe;
 use crate::solve::system::State;
 use crate::solve::unknowns::Unknowns;
 use serde::Serialize;
-use std::fs::File;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Columns of a probe, in this order: displacement [m], velocity [m/s], acceleration [m/s^2].
 const COMPONENTS: [&str; 6] = ["ux", "uy", "vx", "vy", "ax", "ay"];
@@ -20,24 +18,18 @@ pub struct Peak {
     pub time: f64,
 }
 
-/// `histories.csv`, written in whole lines, so that a kill leaves a table that reads.
+/// `histories.csv`.
 pub struct Histories {
-    path: PathBuf,
-    file: File,
-    /// whole lines not yet written
-    waiting: String,
+    lines: Lines,
     probes: Vec<NodeProbe>,
     peaks: Vec<[Peak; 6]>,
 }
 
 impl Histories {
     pub fn create(path: &Path, probes: &[NodeProbe]) -> Result<Histories> {
-        let file = File::create(path).map_err(|e| file::not_written(path, &e))?;
         let columns = probes.iter().flat_map(|p| COMPONENTS.map(|c| format!(",{}.{c}", p.name)));
         Ok(Histories {
-            path: path.into(),
-            file,
-            waiting: format!("t{}\n", columns.collect::<String>()),
+            lines: Lines::create(path, format!("t{}\n", columns.collect::<String>()))?,
             probes: probes.to_vec(),
             peaks: vec![[Peak::default(); 6]; probes.len()],
         })
@@ -45,24 +37,24 @@ impl Histories {
 
     /// `origin`: the unknowns that displacements are counted from.
     pub fn record(&mut self, unknowns: &Unknowns, state: &State, origin: &[f64]) {
-        self.waiting += &format!("{:e}", state.time);
+        let line = &mut self.lines.waiting;
+        *line += &format!("{:e}", state.time);
         for (probe, peaks) in self.probes.iter().zip(&mut self.peaks) {
             let mut motion = [&state.q, &state.v, &state.a].map(|x| unknowns.at_node(x, probe.node));
             let at_origin = unknowns.at_node(origin, probe.node);
             motion[0] = [motion[0][0] - at_origin[0], motion[0][1] - at_origin[1]];
             for (value, peak) in motion.as_flattened().iter().zip(peaks) {
-                self.waiting += &format!(",{value:e}");
+                *line += &format!(",{value:e}");
                 if value.abs() > peak.value.abs() {
                     *peak = Peak { value: *value, time: state.time };
                 }
             }
         }
-        self.waiting.push('\n');
+        line.push('\n');
     }
 
     pub fn flush(&mut self) -> Result<()> {
-        let lines = std::mem::take(&mut self.waiting);
-        self.file.write_all(lines.as_bytes()).map_err(|e| file::not_written(&self.path, &e))
+        self.lines.flush()
     }
 
     /// Per probe and component: `{"A": {"ux": {"value", "time"}, ...}, ...}`.

@@ -6,6 +6,7 @@ pub mod folder;
 pub mod frame;
 pub mod histories;
 pub mod hoop;
+pub mod lines;
 pub mod motion;
 pub mod nodal;
 pub mod plot;

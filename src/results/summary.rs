@@ -1,5 +1,6 @@
 //! `summary.json`: what went in, what came out, what it cost.
 
+use crate::number::readable;
 use crate::solve::energy::{Energies, Ledger};
 use crate::solve::interface::{Interface, JointPoint};
 use crate::solve::system::{Rayleigh, State};
@@ -26,6 +27,8 @@ pub struct Summary {
     pub peaks: Map<String, Value>,
     pub energy: EnergyRecord,
     pub timing: Timing,
+    /// the tables and the series written, with their sizes [bytes]
+    pub files: BTreeMap<String, u64>,
     pub warnings: Vec<String>,
 }
 
@@ -84,18 +87,10 @@ impl Summary {
         text += &format!("energy error      {:.1e} of the peak\n", self.energy.max_relative_error);
         let t = &self.timing;
         text + &format!(
-            "{} steps, {} iterations in {:.2} s (mesh {:.2}, set-up {:.2}, factor {:.2}, frames {:.2}; all {:.2} s)\n",
-            self.steps, self.iterations, t.steps_s, t.mesh_s, t.setup_s, t.factor_s, t.output_s, t.total_s
+            "{} steps, {} iterations in {:.2} s (mesh {:.2}, set-up {:.2}, factor and modes {:.2}; all {:.2} s, {:.2} of \
+             frames beside them)\n",
+            self.steps, self.iterations, t.steps_s, t.mesh_s, t.setup_s, t.factor_s, t.total_s, t.output_s
         )
-    }
-}
-
-/// In nine places: four decimals, or three digits where those would show nothing.
-fn readable(value: f64) -> String {
-    match value.abs() {
-        0. => format!("{:9.4}", 0.),
-        size if (0.01..1e4).contains(&size) => format!("{value:9.4}"),
-        _ => format!("{value:9.2e}"),
     }
 }
 

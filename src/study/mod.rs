@@ -7,6 +7,7 @@ pub mod converge;
 mod curve;
 mod damping;
 pub mod domain;
+mod finished;
 pub mod gmsh;
 mod history;
 mod inputs;

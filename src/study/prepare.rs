@@ -19,7 +19,7 @@ pub struct Prepared {
     pub model: Arc<Model>,
     pub system: Arc<System>,
     pub symbolic: Arc<Symbolic>,
-    pub modes: Vec<NaturalMode>,
+    pub modes: Arc<[NaturalMode]>,
     pub rayleigh: Rayleigh,
     pub orders: Arc<Orders>,
     /// assembly and ordering
@@ -63,7 +63,7 @@ impl Prepared {
             model: model.into(),
             system: system.into(),
             symbolic,
-            modes,
+            modes: modes.into(),
             rayleigh,
             orders: orders.into(),
             setup,

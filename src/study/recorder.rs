@@ -2,9 +2,9 @@
 
 use super::prepare::Prepared;
 use crate::Result;
-use crate::results::file;
 use crate::results::folder::{Folder, STATUS};
 use crate::results::histories::Histories;
+use crate::results::lines::Lines;
 use crate::results::snapshots::{Photographer, Snapshots};
 use crate::results::summary::{
     ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
@@ -13,8 +13,6 @@ use crate::solve::energy::Ledger;
 use crate::solve::step::Step;
 use crate::solve::system::State;
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::Write as _;
 use std::time::Instant;
 
 pub struct Recorder<'a> {
@@ -24,8 +22,7 @@ pub struct Recorder<'a> {
     origin: Vec<f64>,
     histories: Histories,
     photographer: Photographer,
-    status: File,
-    status_lines: String,
+    status: Lines,
     ledger: Ledger,
     contact: ContactRecord,
     steps: usize,
@@ -56,13 +53,11 @@ impl<'a> Recorder<'a> {
         let Prepared { model, system, .. } = prepared;
         let snapshots =
             Snapshots::new(model.clone(), system.clone(), origin.clone(), folder.path(), folder.name(), frames)?;
-        let path = folder.file(STATUS);
-        let status = File::create(&path).map_err(|e| file::not_written(&path, &e))?;
+        let status = Lines::create(&folder.file(STATUS), STATUS_HEADER.into())?;
         let mut recorder = Recorder {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
             photographer: Photographer::new(snapshots)?,
             status,
-            status_lines: STATUS_HEADER.into(),
             ledger: Ledger::start(&prepared.system, state),
             contact: ContactRecord::default(),
             steps: 0,
@@ -95,7 +90,7 @@ impl<'a> Recorder<'a> {
         let time = &self.prepared.model.time;
         if number.is_multiple_of(time.steps_per_frame) || number == time.steps {
             self.write_frame(&state)?;
-        } else if self.status_lines.len() > LONGEST_WAIT {
+        } else if self.status.waiting.len() > LONGEST_WAIT {
             self.flush()?;
         }
         Ok(state)
@@ -108,9 +103,7 @@ impl<'a> Recorder<'a> {
 
     fn flush(&mut self) -> Result<()> {
         self.histories.flush()?;
-        let lines = std::mem::take(&mut self.status_lines);
-        let written = self.status.write_all(lines.as_bytes());
-        written.map_err(|e| file::not_written(&self.folder.file(STATUS), &e))
+        self.status.flush()
     }
 
     fn write_status(&mut self, number: usize, old: &State, step: &Step) {
@@ -120,7 +113,7 @@ impl<'a> Recorder<'a> {
         let left =
             self.started.elapsed().as_secs_f64() / number as f64 * (self.prepared.model.time.steps - number) as f64;
         let _ = writeln!(
-            self.status_lines,
+            self.status.waiting,
             "{number:7} {:12.5e} {:9.2e} {:4} {:9.2e} {open:5} {slipping:5} {:11.4e} {:11.4e} {:11.4e} {:11.4e} \
              {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
             step.state.time,
@@ -170,6 +163,7 @@ impl<'a> Recorder<'a> {
             peaks: self.histories.peaks(),
             energy: EnergyRecord::from(&self.ledger),
             timing: Timing { steps_s, output_s: snapshots.busy.as_secs_f64(), ..timing },
+            files: self.folder.sizes(),
             warnings: model
                 .warnings
                 .iter()

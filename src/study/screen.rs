@@ -1,8 +1,9 @@
 //! What a run tells on stderr: sentences, warnings, and a progress bar on a terminal or plain lines in a log.
 
+use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::Mutex;
 
 pub struct Screen {
@@ -63,6 +64,17 @@ impl Progress {
                 }
             }
         }
+    }
+}
+
+/// To stdout. A reader that closed the pipe has seen enough.
+///
+/// Error: stdout cannot be written.
+pub fn show(text: &str) -> Result<()> {
+    let mut stdout = std::io::stdout();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::input(format!("stdout cannot be written: {e}"))),
+        _ => Ok(()),
     }
 }
 

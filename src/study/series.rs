@@ -1,16 +1,18 @@
 //! Runs of one case beside each other, each with other constants or keys: finished ones are not computed again.
 
+use super::finished::finished;
 use super::gmsh::VARIABLE;
 use super::inputs::inputs;
 use super::mesh;
 use super::run::{self, Request};
 use super::screen::tell;
 use crate::model::case::{Case, Geometry};
+use crate::results::folder::summary;
 use crate::study::script::Script;
 use crate::{Error, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The runs of a study, each in a folder of its own under `folder`.
 pub struct Series<'a> {
@@ -64,19 +66,19 @@ impl Series<'_> {
         let case = Case::read(&request.case, &request.sets)?;
         let folder = request.folder(&case);
         let meshed = mesh::obtain(&case, &request.geo, request.mesh.as_deref())?;
-        let wanted = serde_json::json!(inputs(&case, &meshed.path, request)?);
+        let inputs = inputs(&case, &meshed.path, request)?;
         let say = |sentence: &str| {
             if !self.request.quiet {
                 tell(sentence)
             }
         };
-        if let Some(summary) = finished(&folder, &wanted) {
+        if let Some(summary) = finished(&folder, &inputs, true) {
             say(&format!("{}: taken as it is", folder.display()));
             return Ok(Member { folder, summary });
         }
         say(&format!("{}: {} nodes", folder.display(), meshed.mesh.points.len()));
         run::command(request)?;
-        let summary = read(&folder).ok_or_else(|| Error::input(format!("{} has no summary", folder.display())))?;
+        let summary = summary(&folder).ok_or_else(|| Error::input(format!("{} has no summary", folder.display())))?;
         Ok(Member { folder, summary })
     }
 }
@@ -87,19 +89,6 @@ fn within(name: &str, error: Error) -> Error {
         Error::NoConvergence(s) => Error::NoConvergence(format!("in the run {name}: {s}")),
         Error::Interrupted(s) => Error::Interrupted(s),
     }
-}
-
-fn read(folder: &Path) -> Option<Value> {
-    serde_json::from_slice(&std::fs::read(folder.join("summary.json")).ok()?).ok()
-}
-
-/// The summary of a finished run of the same inputs by this very program.
-fn finished(folder: &Path, wanted: &Value) -> Option<Value> {
-    let summary = read(folder)?;
-    let same = ["case_sha256", "mesh_sha256", "bonded", "coralpipe"].iter().all(|k| summary["inputs"][k] == wanted[k]);
-    let written = |path: &Path| path.metadata().and_then(|m| m.modified()).ok();
-    let program = written(&std::env::current_exe().ok()?)?;
-    (summary["status"] == "done" && same && written(&folder.join("summary.json"))? >= program).then_some(summary)
 }
 
 /// The script of a case that must have one, and the value of each of its constants in force.

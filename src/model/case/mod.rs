@@ -232,6 +232,11 @@ impl Case {
         &self.json
     }
 
+    /// What is calculated, in SI: equal for cases that are written in different ways only.
+    pub fn meaning(&self) -> String {
+        format!("{:?}", Case { json: Value::Null, path: PathBuf::new(), ..self.clone() })
+    }
+
     /// Time between frames [s]: `output.every`, else about a hundredth of the end, in whole steps.
     pub fn frame_interval(&self) -> f64 {
         let step = self.time.step.0;

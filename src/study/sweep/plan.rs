@@ -48,7 +48,8 @@ impl Plan {
     pub fn read(path: &Path) -> Result<Plan> {
         let place = path.display();
         let text = std::fs::read_to_string(path).map_err(|e| Error::input(format!("{place}: {e}")))?;
-        let plan = serde_json::from_str(&text).and_then(|Unique(json)| serde_json::from_value(json));
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let plan = serde_json::from_str(text).and_then(|Unique(json)| serde_json::from_value(json));
         let plan: Plan = plan.map_err(|e| {
             Error::input(format!(
                 "{place}: {e}; a plan looks like {{ \"case\": \"twin_pipes.json\", \"set\": {{ \
@@ -66,10 +67,11 @@ impl Plan {
             }
         }
         let runs = plan.varied().fold(1usize, |n, (.., v)| n.saturating_mul(v.as_array().map_or(1, Vec::len)));
-        if plan.varied().next().is_none() || runs > MOST {
-            return Err(Error::input(format!(
-                "{place}: it asks for {runs} runs; vary something by \"set\" or \"geo\", in at most {MOST} combinations"
-            )));
+        if plan.varied().next().is_none() {
+            return Err(Error::input(format!("{place}: it varies nothing: vary something by \"set\" or \"geo\"")));
+        }
+        if runs > MOST {
+            return Err(Error::input(format!("{place}: it asks for {runs} runs; {MOST} combinations are the most")));
         }
         Ok(Plan { case: path.parent().unwrap_or(Path::new("")).join(&plan.case), ..plan })
     }
