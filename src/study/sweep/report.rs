@@ -96,7 +96,7 @@ impl<'a> Report<'a> {
         self.failures.sort_by_key(|failure| failure.number);
         let error = match self.failures.first() {
             _ if stopped.is_err() => stopped.err().map(|why| Error::input(format!("{why}; {goes_on}"))),
-            _ if interrupted() => Some(Error::Interrupted(format!("interrupted; {goes_on}"))),
+            _ if interrupted() && done < count => Some(Error::Interrupted(format!("interrupted; {goes_on}"))),
             Some(Failure { number, why }) => {
                 let sentence = match count {
                     1 => why.to_string(),
