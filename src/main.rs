@@ -1,4 +1,5 @@
 mod cli;
+mod memory;
 
 use clap::Parser;
 use coralpipe::study::{
@@ -6,6 +7,9 @@ use coralpipe::study::{
     screen::{show, tell},
 };
 use std::process::ExitCode;
+
+#[global_allocator]
+static ALLOCATOR: memory::Telling = memory::Telling;
 
 fn main() -> ExitCode {
     let cli = cli::Cli::parse();

@@ -5,6 +5,11 @@ pub fn short(value: f64) -> String {
     short_to(9, value)
 }
 
+/// A time [s] as in "t = 0.0029 s".
+pub fn seconds(time: f64) -> String {
+    format!("{} s", short(time))
+}
+
 /// So many digits at most.
 pub fn short_to(digits: usize, value: f64) -> String {
     let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
@@ -34,7 +39,7 @@ pub fn readable(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{fixed, short, short_to};
+    use super::{fixed, seconds, short, short_to};
 
     #[test]
     fn round_off_is_not_shown_and_nothing_else_is_lost() {
@@ -44,6 +49,13 @@ mod tests {
             assert_eq!(short(value), text);
         }
         assert_eq!([short_to(3, 1234.5), short_to(5, 1e102 / 3.)], ["1230", "3.3333e101"]);
+    }
+
+    #[test]
+    fn times_are_told_without_the_round_off_of_their_steps() {
+        let [twentynine_steps, late, early] = [29. * 1e-4, 3. * 0.1, 7. * 1e-7];
+        assert_ne!([twentynine_steps, late, early], [0.0029, 0.3, 7e-7]);
+        assert_eq!([twentynine_steps, late, early].map(seconds), ["0.0029 s", "0.3 s", "7e-7 s"]);
     }
 
     #[test]

@@ -300,7 +300,7 @@ fn check_warns_of_loads_that_never_act_and_of_damping_by_beta_alone() {
     let told = bench.run(&["check", "block.json", "--set", late]).stdout;
     // 5 m at 500 m/s, from 2 ms on
     assert!(
-        told.contains("pressing from 0.002 to 0.012 s on") && told.contains("not reached all of the curve"),
+        told.contains("pressing from 0.002 s to 0.012 s on") && told.contains("not reached all of the curve"),
         "{told}"
     );
 }

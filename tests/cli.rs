@@ -498,6 +498,26 @@ fn results_of_other_options_are_named_before_they_are_replaced() {
     }
 }
 
+/// 20,001 frames of 7 kB, as a finished run of this has them, beside 11; and 1e8 steps between them.
+#[test]
+fn a_run_that_will_write_very_much_is_warned_of_before_it_begins() {
+    let bench = Bench::new("bulk");
+    let often = "--set time.step=0.5us --set output.every=0.5us";
+    let told = bench.run_line(&format!("check block.json {often}")).stdout;
+    for words in ["warning: the run writes 20001 frames, and about 0.2 GB in all", "a longer output.every"] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let told = bench.run_line("check block.json --set time.step=1e-10").stdout;
+    for words in ["the run writes 11 frames, and about 48 GB in all", "a longer time.step"] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let short = "--set time.end=0.2ms --set time.step=0.01us --set output.every=0.01us";
+    let run = bench.run_line(&format!("run block.json {short} --quiet --out {}", "block.json"));
+    let warned = run.stderr.find("20001 frames").expect("told though the folder for them cannot be made");
+    assert!(run.code == Some(1) && run.stderr.find("coralpipe: ").expect("it cannot begin") > warned, "{}", run.stderr);
+    assert!(!bench.run_line("check block.json").stdout.contains("the run writes"));
+}
+
 /// Triangles of 0.006 degrees, faces in no group, groups without elements, elements that stand twice.
 #[test]
 fn a_mesh_alone_is_warned_of_as_in_a_case() {

@@ -4,7 +4,7 @@ use super::case::{Analysis, Case, Quad4};
 use super::initial::Initial;
 use super::mesh::Shape;
 use super::resolve::{Load, Model};
-use crate::number::short;
+use crate::number::seconds;
 
 /// A sentence for each.
 pub fn idle(case: &Case, model: &Model) -> Vec<String> {
@@ -48,7 +48,7 @@ fn never_acts(load: &Load, end: f64) -> Option<String> {
     let because = match load.pulse.is_zero() {
         true => "it is zero at all times".into(),
         false if first >= end => {
-            format!("it begins at {} s, and the calculation ends at {} s", short(first), short(end))
+            format!("it begins at {}, and the calculation ends at {}", seconds(first), seconds(end))
         }
         false => return None,
     };

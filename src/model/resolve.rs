@@ -13,7 +13,7 @@ use super::quality;
 use super::sampled::unseen;
 use super::sides::solid_sides;
 use super::split::{self, Joint, Pair, Seam};
-use crate::number::short;
+use crate::number::seconds;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
@@ -291,16 +291,17 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
     let step = case.time.step.0;
     if case.time.end.0 / step > MOST_STEPS {
         return Err(Error::input(format!(
-            "time.end = {:e} s is {:e} steps of time.step = {step:e} s; at most {MOST_STEPS:e} can be computed",
-            case.time.end.0,
-            case.time.end.0 / step
+            "time.end = {} is {:e} steps of time.step = {}; at most {MOST_STEPS:e} can be computed",
+            seconds(case.time.end.0),
+            case.time.end.0 / step,
+            seconds(step)
         )));
     }
     let whole = |what: &str, span: f64, warnings: &mut Vec<String>| {
         let count = (span / step).round().max(1.);
         if (count * step / span - 1.).abs() > 1e-9 {
-            let (span, used) = (short(span), short(count * step));
-            warnings.push(format!("{what} = {span} s is not a whole number of steps; {used} s is used"));
+            let (span, used) = (seconds(span), seconds(count * step));
+            warnings.push(format!("{what} = {span} is not a whole number of steps; {used} is used"));
         }
         count as usize
     };

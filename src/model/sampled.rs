@@ -1,7 +1,7 @@
 //! What equal time steps see of a load.
 
 use super::resolve::{Load, Target, TimeGrid};
-use crate::number::{short, short_to};
+use crate::number::{seconds, short_to};
 use crate::physics::polyline;
 use crate::physics::pulse::Pulse;
 
@@ -24,7 +24,7 @@ pub fn unseen(load: &Load, time: &TimeGrid) -> Option<String> {
     }
     let finer = (1..30).map(|k| time.step / 2f64.powi(k)).take_while(|step| last / step <= MANY);
     let enough = finer.into_iter().find(|&step| error(step).abs() <= UNSEEN[1]);
-    let advice = enough.map_or("smaller steps".into(), |step| format!("time.step = {} s", short(step)));
+    let advice = enough.map_or("smaller steps".into(), |step| format!("time.step = {}", seconds(step)));
     let unit = match load.target {
         Target::Pressure { .. } | Target::Traction { .. } => "Pa s",
         Target::BodyForce { .. } => "N s/m3",
@@ -37,11 +37,11 @@ pub fn unseen(load: &Load, time: &TimeGrid) -> Option<String> {
         false => "",
     };
     Some(format!(
-        "the load on {} is not resolved by the time steps: its impulse is {} {unit}, and steps of {} s see {} {unit} \
+        "the load on {} is not resolved by the time steps: its impulse is {} {unit}, and steps of {} see {} {unit} \
          ({:+.1} %); {advice} would see it within {:.0} %{late}",
         load.group,
         short_to(4, own),
-        short(time.step),
+        seconds(time.step),
         short_to(4, own + size * error(time.step)),
         100. * error(time.step),
         100. * UNSEEN[1]

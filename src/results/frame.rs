@@ -4,6 +4,7 @@ use super::sites::Sites;
 use super::stress::{CellStress, Recovery, von_mises};
 use super::vtu;
 use crate::model::resolve::Model;
+use crate::number::seconds;
 use crate::physics::joint::Status;
 use crate::physics::shape::Shape;
 use crate::solve::interface::Interface;
@@ -129,7 +130,7 @@ impl Grid {
         let mut file = vtu::File::new(&self.base);
         self.add_point_data(&mut file, frame, &self.recovery.nodal_stresses(&total_displacement, &centres));
         self.add_cell_data(&mut file, &frame.joints, &centres);
-        let why = |e| Error::input(format!("the frame at {} s cannot be written as VTU: {e}", frame.time));
+        let why = |e| Error::input(format!("the frame at {} cannot be written as VTU: {e}", seconds(frame.time)));
         file.text().map_err(why)
     }
 

@@ -2,6 +2,7 @@
 
 use crate::model::mesh::Mesh;
 use crate::model::resolve::Model;
+use crate::number::seconds;
 use crate::solve::system::{State, System};
 use std::collections::BTreeSet;
 
@@ -72,7 +73,7 @@ impl Motion {
     /// Says so where the equations hold no longer.
     pub fn warnings(&self) -> Vec<String> {
         let Motion { turn, jump } = self;
-        let place = |l: &Largest| format!("at ({:.4}, {:.4}) m, t = {:.3e} s", l.at[0], l.at[1], l.time);
+        let place = |l: &Largest| format!("at ({:.4}, {:.4}) m, t = {}", l.at[0], l.at[1], seconds(l.time));
         let mut warnings = Vec::new();
         if jump.value > LARGE {
             warnings.push(format!(

@@ -98,6 +98,13 @@ impl Symbolic {
         Symbolic { start, columns, supernodes, panels }
     }
 
+    /// Bytes that a factor takes while it is made: L as faer computes it and its two packed copies, 8 an entry; the matrix that is
+    /// factored and one that it was made from, 16 an entry.
+    pub fn bytes(&self) -> f64 {
+        let entries = self.supernodes.len_val() + 2 * self.panels.entries(0..self.panels.count());
+        (8 * entries + 2 * 16 * self.columns.len()) as f64
+    }
+
     /// A = L L^T.
     ///
     /// # Errors
@@ -290,6 +297,17 @@ mod tests {
         assert!(distance(&once, &packed) < 1e-13);
         let indefinite = a.map(|v| -v);
         assert_eq!(symbolic.solve_once(&indefinite, &mut once), Err(NotPositiveDefinite { unknown: 0 }));
+    }
+
+    /// Of those bytes the packed copies are what the factor keeps; faer's own has the upper triangles of supernodes, too.
+    #[test]
+    fn a_factor_takes_the_bytes_that_are_told_before() {
+        let a = grid_matrix(40, 30, &[]);
+        let symbolic = Symbolic::new(&a);
+        let Factor { forward, backward, .. } = symbolic.factor(&a).expect("positive definite");
+        let kept = 8 * (forward.len() + backward.len()) + 32 * a.nnz();
+        let computed = symbolic.bytes() as usize - kept;
+        assert!((8 * forward.len()..16 * forward.len()).contains(&computed), "{computed} beside {}", 8 * forward.len());
     }
 
     /// a - sigma

@@ -1,5 +1,6 @@
 //! `coralpipe check`: everything that can be wrong with a case or a mesh, found without solving.
 
+use super::bulk;
 use super::damping;
 use super::loads;
 use super::mesh_report::{self, counts, groups, shapes};
@@ -10,7 +11,7 @@ use crate::model::hold::refuse_loose;
 use crate::model::mesh::{Group, Mesh};
 use crate::model::quality;
 use crate::model::resolve::Model;
-use crate::number::short;
+use crate::number::seconds;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::solve::system::Rayleigh;
@@ -149,24 +150,27 @@ fn size_range(model: &Model, material: usize) -> [f64; 2] {
 fn time(model: &Model) -> String {
     let time = &model.time;
     format!(
-        "time\n  {} steps of {} s to {} s, a frame every {} steps\n",
+        "time\n  {} steps of {} to {}, a frame every {} steps\n",
         time.steps,
-        short(time.step),
-        short(time.step * time.steps as f64),
+        seconds(time.step),
+        seconds(time.step * time.steps as f64),
         time.steps_per_frame
     )
 }
 
 fn warnings(mesh: &Mesh, model: &Model, rayleigh: Rayleigh) -> String {
     let mut warnings = model.warnings.clone();
+    warnings.extend(bulk::warning(model));
     warnings.extend(mesh_report::warnings(mesh));
     warnings.extend(damping::warnings(model, rayleigh));
     for load in &model.loads {
         let rise = load.pulse.rise_time();
         if rise > 0. && rise < 5. * model.time.step {
             warnings.push(format!(
-                "the load on {} rises in {rise} s, less than 5 time steps of {} s: its rise is not resolved",
-                load.group, model.time.step
+                "the load on {} rises in {}, less than 5 time steps of {}: its rise is not resolved",
+                load.group,
+                seconds(rise),
+                seconds(model.time.step)
             ));
         }
     }

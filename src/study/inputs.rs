@@ -1,28 +1,38 @@
 //! What a run is made from, for its summary, and what the results that it replaces were made from.
 
+use super::content::{Content, sha256};
+use super::mesh::Meshed;
 use super::run::Request;
+use crate::Result;
 use crate::model::case::Case;
+use crate::model::msh;
 use crate::results::folder::summary;
 use crate::results::summary::Inputs;
-use crate::{Error, Result};
-use sha2::{Digest, Sha256};
 use std::path::Path;
 
-/// Errors: the mesh cannot be read again.
+/// The hash of the mesh is that of the bytes that were parsed: the file may be another one by now.
+pub fn made_from(case: &Case, meshed: &Meshed, request: &Request) -> Inputs {
+    with_mesh(case, &meshed.path, meshed.sha256.clone(), request)
+}
+
+/// Likewise where the mesh is not at hand any more. Error: it cannot be read again.
 pub fn inputs(case: &Case, mesh: &Path, request: &Request) -> Result<Inputs> {
-    let content = std::fs::read(mesh).map_err(|e| Error::input(format!("{}: {e}", mesh.display())))?;
-    let hash = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect();
-    Ok(Inputs {
+    let content = Content::read(mesh).map_err(|e| msh::not_read(mesh, &e))?;
+    Ok(with_mesh(case, mesh, content.sha256, request))
+}
+
+fn with_mesh(case: &Case, mesh: &Path, mesh_sha256: String, request: &Request) -> Inputs {
+    Inputs {
         case: case.path().display().to_string(),
-        case_sha256: hash(case.json().to_string().as_bytes()),
+        case_sha256: sha256(case.json().to_string().as_bytes()),
         effective_case: case.json().clone(),
         set: request.sets.clone(),
         geo: request.geo.clone(),
         mesh: mesh.display().to_string(),
-        mesh_sha256: hash(&content),
+        mesh_sha256,
         bonded: request.bonded,
         coralpipe: env!("CARGO_PKG_VERSION"),
-    })
+    }
 }
 
 /// Says so where the folder holds results of other options: those of another geometry or other values are easily lost.

@@ -2,7 +2,7 @@
 
 use crate::model::moving_front::MovingFront;
 use crate::model::resolve::{Load, Model, Target};
-use crate::number::{fixed, short, short_to};
+use crate::number::{fixed, seconds, short, short_to};
 use crate::physics::front::Front;
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
@@ -37,7 +37,7 @@ pub fn report(model: &Model) -> String {
 fn rise(load: &Load, step: f64) -> String {
     let rise = load.pulse.rise_time();
     match rise > 0. {
-        true => format!("  load on {} rises in {} s: {:.1} time steps\n", load.group, short(rise), rise / step),
+        true => format!("  load on {} rises in {}: {:.1} time steps\n", load.group, seconds(rise), rise / step),
         false => format!(
             "  load on {} jumps: peak accelerations follow the element size and the time step, displacements do not\n",
             load.group
@@ -48,9 +48,9 @@ fn rise(load: &Load, step: f64) -> String {
 /// The front's speed along its lines against the waves of every ground.
 fn front(sweep: &MovingFront, model: &Model) -> String {
     let ([slow, fast], [first, last]) = (sweep.trace_speeds(), sweep.onset());
-    let [first, last] = [first, last].map(|t| short((1e9 * t).round() / 1e9)); // without the round-off of places
+    let [first, last] = [first, last].map(|t| seconds((1e9 * t).round() / 1e9)); // without the round-off of places
     if slow.is_infinite() {
-        return format!("    its front reaches all of the curve at once, at {first} s\n");
+        return format!("    its front reaches all of the curve at once, at {first}\n");
     }
     let [least, most] = [slow, fast].map(|u| fixed(1, u));
     let speeds = match fast {
@@ -58,10 +58,10 @@ fn front(sweep: &MovingFront, model: &Model) -> String {
         fast if fast.is_finite() => format!("at {least} to {most} m/s"),
         _ => format!("at {least} m/s and more, a part of it at once"),
     };
-    let mut text = format!("    its front runs along the surface {speeds}, pressing from {first} to {last} s on\n");
+    let mut text = format!("    its front runs along the surface {speeds}, pressing from {first} to {last} on\n");
     let end = model.time.step * model.time.steps as f64;
     if sweep.onset()[1] > end {
-        text += &format!("    it has not reached all of the curve when the calculation ends, at {} s\n", short(end));
+        text += &format!("    it has not reached all of the curve when the calculation ends, at {}\n", seconds(end));
     }
     for (name, material) in model.materials.iter().filter(|(name, _)| !model.bodies.contains(name)) {
         text += &format!(
@@ -97,7 +97,7 @@ fn regime([slow, fast]: [f64; 2], ground: &Material) -> String {
 /// A history in words; its values have this unit.
 pub fn law(pulse: &Pulse, unit: &str) -> String {
     let value = |v: f64| format!("{} {unit}", short(v));
-    let time = |t: f64| format!("{} s", short(t));
+    let time = |t: f64| seconds(t);
     match pulse {
         Pulse::Linear { peak, duration } => {
             format!("linear from {} at t = 0 to zero at {}", value(*peak), time(*duration))

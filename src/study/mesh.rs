@@ -1,9 +1,11 @@
 //! Where the mesh of a case comes from: a file, or the case's script through gmsh.
 
+use super::content::Content;
 use super::meshing::{Outcome, ensure_mesh};
 use super::run::Request;
 use crate::model::case::{Case, Geometry};
 use crate::model::mesh::Mesh;
+use crate::model::msh;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,6 +16,8 @@ use std::time::{Duration, Instant};
 pub struct Meshed {
     pub mesh: Mesh,
     pub path: PathBuf,
+    /// of the bytes that became `mesh`
+    pub sha256: String,
     /// one sentence: which mesh, made or found
     pub told: String,
     pub warnings: Vec<String>,
@@ -23,10 +27,10 @@ pub struct Meshed {
 /// `--mesh` first, else the case's geometry with `--geo NAME=VALUE` on top of its parameters.
 pub fn obtain(case: &Case, geo: &BTreeMap<String, f64>, file: Option<&Path>) -> Result<Meshed> {
     let start = Instant::now();
-    let (path, told, warnings) = match (file, &case.geometry) {
-        (Some(path), _) if geo.is_empty() => (path.to_path_buf(), None, vec![]),
+    let Source { path, content, told, warnings } = match (file, &case.geometry) {
+        (Some(path), _) if geo.is_empty() => found(path.to_path_buf())?,
         (Some(_), _) => return Err(Error::input("--geo changes a script's constants; it cannot be used with --mesh")),
-        (None, Some(Geometry::Mesh(path))) if geo.is_empty() => (case.resolve(path), None, vec![]),
+        (None, Some(Geometry::Mesh(path))) if geo.is_empty() => found(case.resolve(path))?,
         (None, Some(Geometry::Mesh(path))) => {
             return Err(Error::input(format!(
                 "--geo changes a script's constants; {} takes its mesh from {}",
@@ -35,15 +39,8 @@ pub fn obtain(case: &Case, geo: &BTreeMap<String, f64>, file: Option<&Path>) -> 
             )));
         }
         (None, Some(Geometry::Script { script, parameters })) => {
-            let path = mesh_path(case, geo);
-            let mut all = parameters.clone();
-            all.extend(geo.clone());
-            let meshing = ensure_mesh(&case.resolve(script), &all, &path)?;
-            let warnings = match &meshing.outcome {
-                Outcome::Unchanged => vec![],
-                Outcome::Made { warnings, .. } => warnings.clone(),
-            };
-            (path, Some(meshing.to_string()), warnings)
+            let all = parameters.iter().chain(geo).map(|(name, value)| (name.clone(), *value)).collect();
+            made(&case.resolve(script), &all, mesh_path(case, geo))?
         }
         (None, None) => {
             return Err(Error::input(format!(
@@ -53,9 +50,32 @@ pub fn obtain(case: &Case, geo: &BTreeMap<String, f64>, file: Option<&Path>) -> 
             )));
         }
     };
-    let mesh = Mesh::read(&path)?;
-    let told = told.unwrap_or_else(|| format!("mesh {}", path.display()));
-    Ok(Meshed { mesh, path, told, warnings, took: start.elapsed() })
+    let name = msh::file_name(&path);
+    let mesh = Mesh::from_msh(&msh::parse(&content.bytes, &name)?, &name)?;
+    Ok(Meshed { mesh, path, sha256: content.sha256, told, warnings, took: start.elapsed() })
+}
+
+/// A mesh before it is looked into.
+struct Source {
+    path: PathBuf,
+    content: Content,
+    told: String,
+    warnings: Vec<String>,
+}
+
+fn found(path: PathBuf) -> Result<Source> {
+    let content = Content::read(&path).map_err(|e| msh::not_read(&path, &e))?;
+    Ok(Source { told: format!("mesh {}", path.display()), path, content, warnings: vec![] })
+}
+
+fn made(script: &Path, parameters: &BTreeMap<String, f64>, path: PathBuf) -> Result<Source> {
+    let meshing = ensure_mesh(script, parameters, &path)?;
+    let told = meshing.to_string();
+    let warnings = match meshing.outcome {
+        Outcome::Unchanged => vec![],
+        Outcome::Made { warnings, .. } => warnings,
+    };
+    Ok(Source { path, content: meshing.content, told, warnings })
 }
 
 /// `coralpipe mesh`: makes the mesh, says which.

@@ -1,13 +1,13 @@
 //! A mesh that fits its script and parameters: made by gmsh where it does not, taken as it is where it does.
 
 use super::constants::Expression;
+use super::content::{Content, sha256};
 use super::gmsh::Gmsh;
 use super::script::Script;
 use crate::model::mesh::Mesh;
 use crate::model::msh;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -29,6 +29,8 @@ struct Record {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Meshing {
     pub mesh: PathBuf,
+    /// of the mesh: what was compared with the record, or made
+    pub content: Content,
     pub script: PathBuf,
     /// version of the gmsh that made the mesh
     pub gmsh: String,
@@ -82,21 +84,22 @@ pub fn ensure_mesh_with(
     find: impl FnOnce() -> Result<Gmsh>,
 ) -> Result<Meshing> {
     let source = Script::read(script)?;
+    let old = Content::read(mesh).ok();
     let mut wanted = Record {
         script: msh::file_name(script),
         script_sha256: sha256(&source.bytes),
         parameters: source.values(parameters)?.into_iter().map(|(name, value)| (name, json(value))).collect(),
         gmsh: String::new(),
-        mesh_sha256: std::fs::read(mesh).map(|bytes| sha256(&bytes)).unwrap_or_default(),
+        mesh_sha256: old.as_ref().map(|old| old.sha256.clone()).unwrap_or_default(),
     };
     let record_file = mesh.with_extension("json");
     let record = read_record(&record_file)?;
-    let meshing = |gmsh: String, outcome| Meshing { mesh: mesh.into(), script: script.into(), gmsh, outcome };
-    let reason = match (record, wanted.mesh_sha256.is_empty()) {
-        (_, true) => "there was no mesh".into(),
-        (None, false) => format!("there was no record {} of what the mesh was made from", record_file.display()),
-        (Some(record), false) => match difference(&record, &wanted) {
-            None => return Ok(meshing(record.gmsh, Outcome::Unchanged)),
+    let meshing = |gmsh, content, outcome| Meshing { mesh: mesh.into(), content, script: script.into(), gmsh, outcome };
+    let reason = match (record, old) {
+        (_, None) => "there was no mesh".into(),
+        (None, Some(_)) => format!("there was no record {} of what the mesh was made from", record_file.display()),
+        (Some(record), Some(old)) => match difference(&record, &wanted) {
+            None => return Ok(meshing(record.gmsh, old, Outcome::Unchanged)),
             Some(difference) => difference,
         },
     };
@@ -106,17 +109,17 @@ pub fn ensure_mesh_with(
     let start = Instant::now();
     let made = make(&gmsh, script, parameters, mesh)?;
     wanted.gmsh.clone_from(&made.version);
-    wanted.mesh_sha256 = made.sha256;
+    wanted.mesh_sha256.clone_from(&made.content.sha256);
     let text = serde_json::to_string_pretty(&wanted).expect("a record has only texts and finite numbers") + "\n";
     replace(&record_file, text.as_bytes())?;
     let seconds = start.elapsed().as_secs_f64();
-    Ok(meshing(made.version, Outcome::Made { seconds, reason, warnings: made.warnings }))
+    Ok(meshing(made.version, made.content, Outcome::Made { seconds, reason, warnings: made.warnings }))
 }
 
 struct Made {
     version: String,
     warnings: Vec<String>,
-    sha256: String,
+    content: Content,
 }
 
 /// Lets gmsh write under a temporary name beside `mesh`, and takes the result only if it is a plane mesh.
@@ -150,7 +153,7 @@ fn make_at(
     }
     msh::parse(&bytes, &name).and_then(|read| Mesh::from_msh(&read, &name)).map_err(|e| failed(&e))?;
     std::fs::rename(temporary, mesh).map_err(|e| not_writable(mesh, &e))?;
-    Ok(Made { version: said.version, warnings: said.warnings, sha256: sha256(&bytes) })
+    Ok(Made { version: said.version, warnings: said.warnings, content: Content::of(bytes) })
 }
 
 /// What of the record is not as wanted; none if nothing is.
@@ -198,10 +201,6 @@ fn json(value: Expression) -> serde_json::Value {
         Expression::Number(number) => number.into(),
         Expression::Formula(text) => text.into(),
     }
-}
-
-fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// `meshes/x.msh` -> `meshes/.x.msh.PROCESS`: in the same folder, so that renaming is one step.

@@ -1,8 +1,10 @@
 //! Whole runs: what each command does, from the case file to the last line on the screen.
 
 pub mod blast;
+mod bulk;
 pub mod check;
 pub mod constants;
+mod content;
 pub mod converge;
 mod curve;
 mod damping;
@@ -12,6 +14,7 @@ pub mod gmsh;
 mod history;
 mod inputs;
 mod loads;
+mod memory;
 pub mod mesh;
 mod mesh_report;
 pub mod meshing;

@@ -10,14 +10,30 @@ pub fn beside(mesh: &Path) -> Orders {
     std::fs::read(place(mesh)).ok().and_then(|bytes| Orders::from_bytes(&bytes)).unwrap_or_default()
 }
 
+/// Says so where something else has taken their place.
+pub fn in_the_way(mesh: &Path) -> Option<String> {
+    let place = place(mesh);
+    (!is_free(&place)).then(|| {
+        format!(
+            "{} is none of this program's files, so it is left alone; the orders of elimination of {} would be kept there, and \
+             without them each run takes longer to set up: move it away, or give the mesh another name",
+            place.display(),
+            mesh.display()
+        )
+    })
+}
+
 /// Leaves them beside the mesh if there are new ones, unless something else has taken the place.
 pub fn keep(mesh: &Path, orders: &Orders) {
     let place = place(mesh);
-    let is_free = std::fs::read(&place).map_or(!place.exists(), |bytes| Orders::are_orders(&bytes));
-    if orders.have_grown() && is_free {
+    if orders.have_grown() && is_free(&place) {
         // The folder of a mesh may be one that cannot be written.
         let _ = file::replace(&place, &orders.to_bytes());
     }
+}
+
+fn is_free(place: &Path) -> bool {
+    std::fs::read(place).map_or(!place.exists(), |bytes| Orders::are_orders(&bytes))
 }
 
 fn place(mesh: &Path) -> PathBuf {

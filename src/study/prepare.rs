@@ -1,6 +1,7 @@
 //! From a model to a system that is ready to march: matrices, natural modes, damping.
 
 use super::damping;
+use super::memory::refuse_too_large;
 use super::orders;
 use crate::model::case::{Analysis, Rayleigh as Damping};
 use crate::model::resolve::Model;
@@ -30,7 +31,8 @@ pub struct Prepared {
 
 impl Prepared {
     /// With the elimination orders that are kept beside the mesh; those that are found are left there.
-    pub fn beside(mesh: &Path, model: Model) -> Result<Prepared> {
+    pub fn beside(mesh: &Path, mut model: Model) -> Result<Prepared> {
+        model.warnings.extend(orders::in_the_way(mesh));
         let prepared = Prepared::ordered(model, orders::beside(mesh))?;
         orders::keep(mesh, &prepared.orders);
         Ok(prepared)
@@ -47,6 +49,7 @@ impl Prepared {
             return Err(Error::input("nothing can move: supports hold every node of the mesh"));
         }
         let symbolic = Arc::new(system.symbolic());
+        refuse_too_large(system.unknowns.count, &symbolic)?;
         let setup = start.elapsed();
 
         let start = Instant::now();

@@ -1,6 +1,7 @@
 //! `coralpipe run`: from the case to the results folder.
 
-use super::inputs::{inputs, replaced};
+use super::bulk;
+use super::inputs::{made_from, replaced};
 use super::mesh::{self, Meshed};
 use super::prepare::Prepared;
 use super::recorder::{Ending, Recorder};
@@ -11,6 +12,7 @@ use crate::model::hold::refuse_loose;
 use crate::model::idle::idle;
 use crate::model::initial::Initial;
 use crate::model::resolve::Model;
+use crate::number::seconds;
 use crate::results::folder::Folder;
 use crate::results::summary::Timing;
 use crate::solve::march::March;
@@ -98,8 +100,9 @@ pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool) -> Result<Model>
 pub fn command(request: &Request) -> Result<String> {
     let started = Instant::now();
     let screen = Screen::new(request.quiet);
-    let Loaded { case, meshed, model } = load(request)?;
+    let Loaded { case, meshed, mut model } = load(request)?;
     refuse_loose(&model)?;
+    model.warnings.extend(bulk::warning(&model));
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
     let told = model.warnings.len();
@@ -116,7 +119,7 @@ pub fn command(request: &Request) -> Result<String> {
         factor_s: (prepared.factor + factoring.elapsed()).as_secs_f64(),
         ..Timing::default()
     };
-    let inputs = inputs(&case, &meshed.path, request)?;
+    let inputs = made_from(&case, &meshed, request);
     begin_to_write();
     let path = request.folder(&case);
     let replaced = replaced(&path, &inputs);
@@ -212,7 +215,8 @@ fn march_to_end(
     let mut state = start;
     for number in 1..=time.steps {
         if interrupted() {
-            let sentence = format!("interrupted at t = {} s, after step {} of {}", state.time, number - 1, time.steps);
+            let sentence =
+                format!("interrupted at t = {}, after step {} of {}", seconds(state.time), number - 1, time.steps);
             return Ok((Ending::Interrupted, Some(Error::Interrupted(sentence))));
         }
         state = match march.advance(&state) {

@@ -2,7 +2,7 @@
 
 use super::finished::finished;
 use super::gmsh::VARIABLE;
-use super::inputs::inputs;
+use super::inputs::made_from;
 use super::mesh;
 use super::run::{self, Request};
 use super::screen::tell;
@@ -66,7 +66,7 @@ impl Series<'_> {
         let case = Case::read(&request.case, &request.sets)?;
         let folder = request.folder(&case);
         let meshed = mesh::obtain(&case, &request.geo, request.mesh.as_deref())?;
-        let inputs = inputs(&case, &meshed.path, request)?;
+        let inputs = made_from(&case, &meshed, request);
         let say = |sentence: &str| {
             if !self.request.quiet {
                 tell(sentence)

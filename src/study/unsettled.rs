@@ -3,6 +3,7 @@
 use super::prepare::Prepared;
 use crate::Error;
 use crate::model::case::Analysis;
+use crate::number::seconds;
 use crate::physics::joint::Status;
 use crate::solve::contact::{Place, Unsettled};
 use crate::solve::march::MAX_CUTS;
@@ -31,7 +32,8 @@ pub fn in_step(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: us
     };
     let cuts = 1 << MAX_CUTS;
     Error::NoConvergence(format!(
-        "{what} in step {number} after t = {time} s, even with the time step cut by {cuts}: {cause}; {advice}"
+        "{what} in step {number} after t = {}, even with the time step cut by {cuts}: {cause}; {advice}",
+        seconds(time)
     ))
 }
 

@@ -64,9 +64,12 @@ impl Block {
 ///
 /// Errors: the file cannot be read, is no MSH 4.1 or 2.2, is cut off or corrupt, is partitioned, or has parametric nodes.
 pub fn read(path: &Path) -> Result<Msh> {
-    let bytes =
-        std::fs::read(path).map_err(|e| Error::input(format!("the mesh {} cannot be read: {e}", path.display())))?;
+    let bytes = std::fs::read(path).map_err(|e| not_read(path, &e))?;
     parse(&bytes, &file_name(path))
+}
+
+pub fn not_read(path: &Path, why: &std::io::Error) -> Error {
+    Error::input(format!("the mesh {} cannot be read: {why}", path.display()))
 }
 
 /// `meshes/twin_pipes.msh` -> `twin_pipes.msh`, as messages call the file.

@@ -14,7 +14,7 @@ use crate::model::arrival::{Returns, returns};
 use crate::model::case::{Analysis, Case};
 use crate::model::moving_front::MovingFront;
 use crate::model::units::Time;
-use crate::number::short;
+use crate::number::{seconds, short};
 use crate::results::file;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -248,8 +248,9 @@ fn window(case: &Case, until: Option<&str>) -> Result<f64> {
     let until = Time::parse(text).map_err(|e| Error::input(format!("--until {text}: {e}")))?.0;
     if !(until >= case.time.step.0 && until <= end * (1. + 1e-9)) {
         return Err(Error::input(format!(
-            "--until {text}: the window must end between the first step, {} s, and time.end = {end} s",
-            case.time.step.0
+            "--until {text}: the window must end between the first step, {}, and time.end = {}",
+            seconds(case.time.step.0),
+            seconds(end)
         )));
     }
     Ok(until)
