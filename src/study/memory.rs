@@ -78,6 +78,6 @@ mod tests {
 
     #[test]
     fn sizes_are_told_in_three_digits_or_four() {
-        assert_eq!([2.7 * MIB, 700.4 * MIB, 3.14 * 1024. * MIB].map(told), ["3 MiB", "700 MiB", "3.1 GiB"]);
+        assert_eq!([2.7 * MIB, 700.4 * MIB, 3.12 * 1024. * MIB].map(told), ["3 MiB", "700 MiB", "3.1 GiB"]);
     }
 }
