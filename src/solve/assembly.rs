@@ -1,4 +1,4 @@
-//! From elements to the matrices and load vectors of the unknowns: K = sum T' k T.
+//! From elements to the matrices and load vectors of the unknowns.
 
 use super::unknowns::Unknowns;
 use crate::model::absorbing::Absorber;
@@ -28,28 +28,27 @@ pub fn stiffness_and_mass(model: &Model, unknowns: &Unknowns) -> (CsMat<f64>, Cs
 /// The faces in the order of their first unknowns: neighbours in it share rows of the matrices, which so stay in the cache.
 fn as_eliminated<'a>(model: &'a Model, unknowns: &Unknowns) -> Vec<(usize, &'a Material)> {
     let mut faces: Vec<(usize, &Material)> = model.faces().collect();
-    let rows = |node: usize| [unknowns.row(node, 0), unknowns.row(node, 1)];
-    faces.sort_by_cached_key(|(cell, _)| {
-        model.mesh.cells[*cell].nodes.iter().flat_map(|&n| rows(n)).flatten().map(|&(i, _)| i).min()
-    });
+    faces.sort_by_cached_key(|(cell, _)| of_nodes(unknowns, &model.mesh.cells[*cell].nodes).min());
     faces
 }
 
-/// Zeros where unknowns are coupled: within a face and, where a support holds one side of a pair so that its two jumps
-/// stand in the rows of different faces, within a joint.
+/// The unknowns of some nodes.
+fn of_nodes<'a>(unknowns: &'a Unknowns, nodes: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+    nodes.iter().flat_map(|&n| [unknowns.of(n, 0), unknowns.of(n, 1)]).flatten()
+}
+
+/// Zeros where unknowns are coupled: within a face and, for closed joints, within a joint.
 fn pattern(model: &Model, unknowns: &Unknowns, faces: &[(usize, &Material)]) -> CsMat<f64> {
-    let of_nodes = |nodes: &[usize]| {
-        let rows = nodes.iter().flat_map(|&n| [unknowns.row(n, 0), unknowns.row(n, 1)]);
-        rows.flatten().map(|&(i, _)| i).collect()
-    };
-    let faces = faces.iter().map(|(cell, _)| of_nodes(&model.mesh.cells[*cell].nodes));
-    let joints =
-        model.joints.iter().map(|joint| joint.pairs.iter().flat_map(|&p| unknowns.jumps[p]).flatten().collect());
+    let faces = faces.iter().map(|(cell, _)| of_nodes(unknowns, &model.mesh.cells[*cell].nodes).collect());
+    let joints = model.joints.iter().map(|joint| {
+        let nodes: Vec<usize> = joint.pairs.iter().map(|&p| model.pairs[p]).flat_map(|p| [p.ground, p.body]).collect();
+        of_nodes(unknowns, &nodes).collect()
+    });
     let cliques: Vec<Vec<usize>> = faces.chain(joints).collect();
     Graph::from_cliques(unknowns.count, cliques.iter().map(Vec::as_slice)).zeros()
 }
 
-/// sum T' a T of the matrices a of all faces, on the pattern of `zeros`.
+/// Sum of the matrices a of all faces, on the pattern of `zeros`.
 fn sum_of_faces(
     model: &Model,
     unknowns: &Unknowns,
@@ -61,15 +60,15 @@ fn sum_of_faces(
     for &(cell, material) in faces {
         let a = of_face(model, cell, material);
         let nodes = &model.mesh.cells[cell].nodes;
-        let terms_of = |k: usize| unknowns.row(nodes[k / 2], k % 2).iter().map(move |&(i, sign)| (k, i, sign));
-        let terms: Vec<(usize, usize, f64)> = (0..a.nrows()).flat_map(terms_of).collect();
-        for &(k, i, sign_i) in &terms {
+        let numbered = |k: usize| Some((k, unknowns.of(nodes[k / 2], k % 2)?));
+        let terms: Vec<(usize, usize)> = (0..a.nrows()).filter_map(numbered).collect();
+        for &(k, i) in &terms {
             let row = start[i]..start[i + 1];
-            for &(l, j, sign_j) in &terms {
+            for &(l, j) in &terms {
                 // Some twenty columns: to look at one after the other is quicker than to halve them.
                 let place = columns[row.clone()].iter().position(|&column| column == j);
                 let place = place.expect("the pattern couples the unknowns of a face");
-                values[row.start + place] += sign_i * sign_j * a[(k, l)];
+                values[row.start + place] += a[(k, l)];
             }
         }
     }
@@ -103,7 +102,7 @@ pub struct NodalForces {
     pub forces: Vec<[f64; 2]>,
 }
 
-/// f = T' (integral of N' t over the loaded lines, or the forces on the points) [N per unit of the pulse].
+/// f = integral of N' t over the loaded lines, or the forces on the points [N per unit of the pulse].
 pub fn load(model: &Model, unknowns: &Unknowns, load: &Load) -> Vec<f64> {
     gathered(unknowns, &nodal_forces(model, &load.target))
 }
@@ -146,14 +145,12 @@ fn body_force(model: &Model, cell: usize, [bx, by]: [f64; 2]) -> NodalForces {
     NodalForces { nodes: cell.nodes.clone(), forces }
 }
 
-/// f = T' of nodal forces.
+/// f of nodal forces.
 fn gathered(unknowns: &Unknowns, forces: &[NodalForces]) -> Vec<f64> {
     let mut f = vec![0.; unknowns.count];
     for (node, force) in forces.iter().flat_map(|p| p.nodes.iter().zip(&p.forces)) {
         for axis in 0..2 {
-            for &(i, sign) in unknowns.row(*node, axis) {
-                f[i] += sign * force[axis];
-            }
+            unknowns.of(*node, axis).iter().for_each(|&i| f[i] += force[axis]);
         }
     }
     f
@@ -168,11 +165,9 @@ pub fn dashpots(model: &Model, unknowns: &Unknowns, zeros: CsMat<f64>) -> CsMat<
             for (b, &node_b) in line.nodes.iter().enumerate() {
                 let block = dashpot_block(&corners(model, &line.nodes), line.shape, impedances, a, b);
                 for (axis_a, axis_b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    for &(i, sign_i) in unknowns.row(node_a, axis_a) {
-                        for &(j, sign_j) in unknowns.row(node_b, axis_b) {
-                            let entry = c.get_mut(i, j).expect("nodes of a line share the face behind it");
-                            *entry += sign_i * sign_j * block[axis_a][axis_b];
-                        }
+                    if let (Some(i), Some(j)) = (unknowns.of(node_a, axis_a), unknowns.of(node_b, axis_b)) {
+                        let entry = c.get_mut(i, j).expect("nodes of a line share the face behind it");
+                        *entry += block[axis_a][axis_b];
                     }
                 }
             }

@@ -1,39 +1,27 @@
 //! A system with contact at the price of a linear one: everything but the joints is linear, so its matrix is factored once,
-//! with the jumps last. Solving takes one forward sweep, Newton on the jumps, one backward sweep.
+//! with the nodes of the interfaces last. Solving takes one forward sweep up to them, Newton on the jumps between them, one
+//! backward sweep.
 
-use super::contact::{Contact, JointDamping, Problem, Unsettled};
+use super::border::Border;
+use super::contact::{Contact, Problem, Reference, Solution};
 use super::interface::JointState;
+use super::joints::Joints;
 use super::system::System;
+use super::unsettled::Unsettled;
 use crate::model::case::Newton;
 use crate::sparse::{Factor, NotPositiveDefinite, Symbolic};
 use sprs::CsMat;
 use std::sync::Arc;
 
-/// A x + r(j) = b with x the unknowns, j the jumps at their end, r the joint forces.
+/// A x + r(j) = b with x the unknowns, j the jumps between some of them, r the joint forces.
 pub struct Condensed {
     factor: Arc<Factor>,
+    border: Arc<Border>,
     contact: Contact,
 }
 
-/// What else than A the factored matrix holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reference {
-    /// nothing: A is positive definite by itself
-    Bodies,
-    /// every joint closed and sticking, because bodies that hang on joints alone make A singular
-    ClosedJoints,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settled {
-    pub joints: Vec<JointState>,
-    pub iterations: usize,
-    /// the paper's test (19), on the jumps
-    pub displacement_test: f64,
-}
-
 impl Condensed {
-    /// Factors `matrix`, which is A plus what `reference` says; S = L_cc L_cc' is the Schur complement of the jumps.
+    /// Factors `matrix`, which is A plus what `reference` says.
     pub fn new(
         system: &System,
         symbolic: &Symbolic,
@@ -41,64 +29,44 @@ impl Condensed {
         reference: Reference,
         options: Newton,
     ) -> Result<Condensed, NotPositiveDefinite> {
-        let factor = symbolic.factor(matrix)?;
-        let trailing = factor.trailing(system.interface.count);
-        let mut schur = &trailing * trailing.transpose();
-        let contact = match reference {
-            Reference::Bodies => Contact::new(schur, options),
-            Reference::ClosedJoints => {
-                for point in &system.interface.points {
-                    let closed = point.law.closed_stiffness();
-                    system.interface.tangent(point, &closed, |i, j, value| schur[(i, j)] -= value);
-                }
-                Contact::new(schur, options).stabilised()
-            }
-        };
-        Ok(Condensed { factor: factor.into(), contact })
+        let factor: Arc<Factor> = symbolic.factor(matrix)?.into();
+        let border: Arc<Border> = Border::new(&factor, &system.unknowns).into();
+        Ok(Condensed { factor, contact: Contact::new(border.clone(), reference, options), border })
     }
 
     /// For another system of the same matrix, whose joints have a history of their own.
     pub fn sharing_factor(&self) -> Condensed {
-        Condensed { factor: self.factor.clone(), contact: self.contact.sharing_matrix() }
+        Condensed { factor: self.factor.clone(), border: self.border.clone(), contact: self.contact.sharing_border() }
     }
 
-    /// A x + r(j) = b.
+    /// A x + r(j) = b; x, the jumps behind it, and how the joints settled. They move on from the jumps `last` and the
+    /// states `old`.
     pub fn solve(
         &mut self,
         system: &System,
         b: Vec<f64>,
-        guess: &[f64],
+        last: &[f64],
         old: &[JointState],
-        damping: Option<JointDamping>,
-    ) -> Result<(Vec<f64>, Settled), Unsettled> {
+    ) -> Result<(Vec<f64>, Solution), Unsettled> {
         let mut x = b;
         self.factor.condense(&mut x);
-        let jumps = &mut x[system.unknowns.first_jump..];
-        let settled = self.settle(system, jumps, [guess, guess], old, damping)?;
+        let joints = Joints { interface: &system.interface, old, damping: None };
+        let at_border = &mut x[system.unknowns.border..];
+        let solution = self.settle(at_border, joints, last, last)?;
+        at_border.copy_from_slice(&solution.border);
         self.factor.expand(&mut x);
-        Ok((x, settled))
+        x.extend(&solution.jumps);
+        Ok((x, solution))
     }
 
     pub fn factor(&self) -> &Factor {
         &self.factor
     }
 
-    /// Between the sweeps: from the condensed right-hand side `x` to the jumps that satisfy the joints, put in its place. The joints move on from `old`; the `last` jumps and the `expected` ones start Newton.
-    pub fn settle(
-        &mut self,
-        system: &System,
-        x: &mut [f64],
-        [last, expected]: [&[f64]; 2],
-        old: &[JointState],
-        damping: Option<JointDamping>,
-    ) -> Result<Settled, Unsettled> {
-        let problem = Problem { interface: &system.interface, right_hand_side: x, old, damping };
-        let solution = self.contact.solve(&problem, last, expected)?;
-        x.copy_from_slice(&solution.jumps);
-        Ok(Settled {
-            joints: solution.responses.iter().map(JointState::from).collect(),
-            iterations: solution.iterations,
-            displacement_test: solution.displacement_test,
-        })
+    /// Between the sweeps: from the condensed right-hand side at the border to the displacements there that satisfy the
+    /// joints, which move on from the jumps `last` towards the `expected` ones.
+    pub fn settle(&mut self, b: &[f64], joints: Joints, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
+        let free = self.border.jumps(&self.border.displacements(b));
+        self.contact.solve(&Problem { joints, b, free: &free, last, expected })
     }
 }

@@ -1,40 +1,50 @@
-//! Newton's method on the jumps: S j + r(j) = b, S the Schur complement of everything linear, r the joint forces.
+//! Newton's method on the jumps: S (j - j_0) + r(j) - D_0 j = 0, with j_0 the jumps without joint forces, S the stiffness
+//! of what the joints connect, r the joint forces, and D_0 the stiffness of the joints that S already holds, if any.
 //!
-//! r is piecewise linear: a step whose points stay on their branches ends at the solution, and only the points that
-//! changed their status cost more than that.
+//! r is piecewise linear: a step whose points stay on their branches is solved at once, and only the points that changed
+//! their status cost more than that.
 
-use super::interface::{Interface, JointPoint, JointState};
-use super::inverse::{Inverse, dense_times};
-use super::newmark::Constants;
+use super::border::Border;
+use super::interface::JointPoint;
+use super::inverse::Inverse;
+use super::joints::{Branches, Joints};
+use super::tresca::FixedPoint;
+use super::unsettled::{Place, Unsettled};
 use crate::model::case::Newton;
-use crate::physics::joint::{Friction, JointLaw, Response, Status};
-use crate::sparse::vector::norm;
-use faer::Mat;
+use crate::physics::joint::{JointLaw, Response, Status};
+use crate::sparse::vector::{add, norm};
 use nalgebra::{Matrix2, Vector2};
 use std::sync::Arc;
 
 /// Relative residual below which a status may still flip: round-off decides it, and it carries no force.
 const ROUND_OFF: f64 = 1e-13;
 
-/// Damping of the joints, C(U) of eq. (16): beta times the stiffness of what was closed acts on the jump's rate.
-#[derive(Debug, Clone)]
-pub struct JointDamping {
-    pub beta: f64,
-    pub constants: Constants,
-    /// -a1 j - a4 j' - a5 j'' of the last state: the rate is a1 j(new) plus this
-    pub rate_offset: Vec<f64>,
+/// What of the joints the border holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reference {
+    /// nothing, D_0 = 0: the bodies stand by themselves
+    Bodies,
+    /// every joint closed and sticking, because some bodies hang on joints alone
+    ClosedJoints,
 }
 
 /// One step's contact problem.
 pub struct Problem<'a> {
-    pub interface: &'a Interface,
-    pub right_hand_side: &'a [f64],
-    pub old: &'a [JointState],
-    pub damping: Option<JointDamping>,
+    pub joints: Joints<'a>,
+    /// forces at the border, without the joints' [N]
+    pub b: &'a [f64],
+    /// the jumps that they make [m]
+    pub free: &'a [f64],
+    /// jumps of the last state [m]
+    pub last: &'a [f64],
+    /// where they are going [m]: a point that slips stands just on the edge of slip, and only this tells that it goes on
+    pub expected: &'a [f64],
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
+    /// displacements of the border [m]
+    pub border: Vec<f64>,
     pub jumps: Vec<f64>,
     pub responses: Vec<Response>,
     pub iterations: usize,
@@ -42,272 +52,186 @@ pub struct Solution {
     pub displacement_test: f64,
 }
 
-/// Why no step could be accepted.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Unsettled {
-    /// no statuses were found that agree with their jumps: the joint points that kept changing, and how all stood last
-    Statuses { changing: Vec<usize>, last: Vec<Status> },
-    /// the statuses stand, but the residual does not fall: what it stays at, and the joint point where it is largest
-    Residual { relative: f64, largest: Option<usize>, last: Vec<Status> },
-    /// numbers beyond floating point
-    Overflow(Place),
-}
-
-/// Where numbers first go beyond floating point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    JointPoint(usize),
-    Node(usize),
-    /// in the matrix of a step
-    Matrix,
-}
-
 pub struct Contact {
-    pub(super) schur: Arc<Mat<f64>>,
-    /// the tolerance is on |S j + r - b| / max(|b|, |S j|, |r|)
+    pub(super) border: Arc<Border>,
+    reference: Reference,
     pub(super) options: Newton,
-    /// part of the closed stiffness that every tangent keeps, so that what slips freely has one
-    stabilisation: f64,
     inverse: Inverse,
-    /// the jumps of the last solution and S times them, where the next step begins
-    last: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+/// Where Newton stands.
+struct Iterate {
+    jumps: Vec<f64>,
+    branches: Branches,
+    /// at the jumps, on the lines that the last step was solved with [Pa]
+    tractions: Vec<Vector2<f64>>,
+    /// S (j - j_0) + r - D_0 j [N]
+    missed: Vec<f64>,
+}
+
+impl Iterate {
+    /// Whether the joints' answers are those to its jumps, and not to others on whose branches it goes on.
+    fn is_answered(&self) -> bool {
+        self.branches.at == self.jumps
+    }
 }
 
 impl Contact {
-    pub fn new(schur: Mat<f64>, options: Newton) -> Self {
-        Contact { schur: schur.into(), options, stabilisation: 0., inverse: Inverse::default(), last: None }
-    }
-
-    /// For equilibrium without inertia, where a body that slips all round can turn without resistance. Only the way to
-    /// the solution changes, not the solution: the residual knows nothing of it.
-    pub fn stabilised(self) -> Self {
-        Contact { stabilisation: 1e-9, ..self }
+    pub fn new(border: Arc<Border>, reference: Reference, options: Newton) -> Contact {
+        Contact { border, reference, options, inverse: Inverse::default() }
     }
 
     /// For other joints on the same bodies.
-    pub fn sharing_matrix(&self) -> Self {
-        Contact { schur: self.schur.clone(), inverse: Inverse::default(), last: None, ..*self }
+    pub fn sharing_border(&self) -> Contact {
+        Contact { border: self.border.clone(), inverse: Inverse::default(), ..*self }
     }
 
     /// Newton with the statuses inside the loop; where they run in a circle, the fixed point on Tresca's bound.
-    ///
-    /// It starts from the jumps `last` of the last state, on the branches of r that `expected` jumps lie on: a point that
-    /// slips stands just on the edge of slip, and only where it is going tells that it goes on.
-    pub fn solve(&mut self, problem: &Problem, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
-        self.newton(problem, last, expected).or_else(|unsettled| {
-            let near = self.fixed_point(problem, last).ok_or(unsettled)?;
+    pub fn solve(&mut self, problem: &Problem) -> Result<Solution, Unsettled> {
+        self.newton(problem, problem.expected).or_else(|unsettled| {
+            let FixedPoint { jumps, iterations, displacement_test } = self.fixed_point(problem).ok_or(unsettled)?;
             // From so near Newton ends at round-off, unless it circles again.
-            let polished = self.newton(problem, &near.jumps, &near.jumps);
-            Ok(polished.map_or(near.clone(), |s| Solution {
-                iterations: near.iterations + s.iterations,
-                displacement_test: near.displacement_test,
-                ..s
-            }))
+            let polished = self.newton(problem, &jumps);
+            let near = |_| self.solution(problem, &problem.joints.branches(&jumps), 0, displacement_test);
+            let nearest = polished.unwrap_or_else(near);
+            Ok(Solution { iterations: iterations + nearest.iterations, displacement_test, ..nearest })
         })
     }
 
-    fn newton(&mut self, problem: &Problem, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
-        let mut jumps = last.to_vec();
-        let mut branches = self.branches(problem, expected);
-        let mut residual = self.on_branches(problem, &jumps, &branches);
+    /// From the free jumps, on the branches of r that the `expected` ones lie on.
+    fn newton(&mut self, problem: &Problem, expected: &[f64]) -> Result<Solution, Unsettled> {
+        let mut iterate = self.start(problem, problem.free, problem.joints.branches(expected));
+        let mut scale = self.scale(problem, &iterate);
         let mut seen: Vec<Vec<Status>> = Vec::new();
-        let mut correction = 0.;
+        let (mut correction, mut again) = (0., false);
         for iterations in 0..=self.options.max_iterations {
-            let settled = seen.last() == Some(&branches.statuses);
-            if residual.predicted && (settled || residual.relative() <= ROUND_OFF) {
-                if branches.at != jumps {
-                    branches = self.branches(problem, &jumps);
+            let statuses = iterate.branches.statuses();
+            let settled = seen.last() == Some(&statuses);
+            let tolerance = if settled { self.options.tolerance } else { ROUND_OFF };
+            if iterate.is_answered() && norm(&iterate.missed) <= tolerance * scale {
+                let displacement_test = ratio(correction, distance(&iterate.jumps, problem.last));
+                let solution = self.solution(problem, &iterate.branches, iterations, displacement_test);
+                if self.fits(problem, &solution) {
+                    return Ok(solution);
                 }
-                residual = self.residual(problem, &jumps, &branches.responses);
             }
-            if !residual.predicted && residual.relative() <= if settled { self.options.tolerance } else { ROUND_OFF } {
-                let displacement_test = ratio(correction, distance(&jumps, last));
-                self.last = Some((jumps.clone(), residual.linear));
-                return Ok(Solution { jumps, responses: branches.responses, iterations, displacement_test });
-            }
-            let mut turns_in_a_circle = !settled && seen.contains(&branches.statuses);
-            if turns_in_a_circle && self.inverse.is_corrected() {
-                // Corrections may have worn the inverse: once more with a fresh one, from what the residual really is.
+            let circles = !settled && seen.contains(&statuses);
+            if (circles || settled) && (!again || self.inverse.is_corrected()) {
+                // Corrections may have worn the inverse, and stiff joints cost digits on the way from the free jumps: once
+                // more with a fresh one, from what these jumps really miss.
                 self.inverse.forget();
-                residual = self.on_branches(problem, &jumps, &branches);
+                iterate = self.start(problem, &iterate.jumps, iterate.branches);
                 seen.clear();
-                turns_in_a_circle = false;
+                again = true;
+            } else if circles {
+                break;
             }
-            if turns_in_a_circle || iterations == self.options.max_iterations {
-                return Err(self.unsettled(problem, &residual, seen.last(), branches.statuses));
-            }
-            if settled {
-                // The tangent was right and yet the step missed: corrections have worn the inverse.
-                self.inverse.forget();
-            }
-            let step = self.inverse.solve(&self.schur, problem.interface, &branches.tangents, &residual.force);
-            jumps.iter_mut().zip(&step).for_each(|(j, d)| *j -= d);
-            let next = self.branches(problem, &jumps);
-            residual = self.predicted(problem, &branches, &next, &residual);
-            correction = norm(&step);
-            seen.push(std::mem::replace(&mut branches, next).statuses);
+            let tangents = self.tangents(&problem.joints, &iterate.branches.responses);
+            let step = self.inverse.solve(&self.border.schur, problem.joints.interface, &tangents, &iterate.missed);
+            iterate = self.after(&problem.joints, &iterate, &tangents, &step);
+            scale = scale.max(norm(&iterate.missed));
+            correction = if iterations == 0 { distance(&iterate.jumps, problem.last) } else { norm(&step) };
+            seen.push(statuses);
         }
-        unreachable!("the last iteration returns")
+        Err(self.unsettled(problem, &iterate, scale, seen.last()))
     }
 
-    /// The branches of r that the joints are on with these jumps.
-    fn branches(&self, problem: &Problem, jumps: &[f64]) -> Branches {
-        let responses = problem.respond(jumps, None);
-        Branches {
-            at: jumps.to_vec(),
-            statuses: responses.iter().map(|r| r.status).collect(),
-            tangents: self.tangents(problem, &responses),
-            responses,
+    /// At some jumps, on the lines through some branches.
+    fn start(&self, problem: &Problem, jumps: &[f64], branches: Branches) -> Iterate {
+        let Problem { joints, free, .. } = problem;
+        let tractions = joints.on_lines(&branches, jumps);
+        let points = joints.interface.points.iter().zip(&tractions);
+        let beyond = points.map(|(p, traction)| traction - self.held(&p.law) * joints.interface.local(p, jumps));
+        let mut missed = joints.interface.forces(beyond);
+        if jumps != *free {
+            let from_free: Vec<f64> = jumps.iter().zip(*free).map(|(j, free)| j - free).collect();
+            add(&mut missed, 1., &self.border.forces(&from_free));
         }
+        Iterate { jumps: jumps.to_vec(), missed, branches, tractions }
     }
 
-    fn unsettled(
+    /// What forces are measured against [N].
+    fn scale(&self, problem: &Problem, iterate: &Iterate) -> f64 {
+        norm(&iterate.missed).max(norm(&problem.joints.interface.forces(iterate.tractions.iter().copied())))
+    }
+
+    /// After a step of Newton's, which goes where the lines that it was solved with miss nothing: so what is missed is how
+    /// far the joints' answer lies off these lines, and that is nothing at every point that stayed on its branch.
+    fn after(&self, joints: &Joints, before: &Iterate, tangents: &[Matrix2<f64>], step: &[f64]) -> Iterate {
+        let jumps: Vec<f64> = before.jumps.iter().zip(step).map(|(j, d)| j - d).collect();
+        let branches = joints.branches(&jumps);
+        let off_its_line = |(i, point): (usize, &JointPoint)| {
+            let (old, new) = (&before.branches.responses[i], &branches.responses[i]);
+            if self.stabilisation() == 0. && old.status == new.status && old.tangent == new.tangent {
+                return Vector2::zeros();
+            }
+            let slope = tangents[i] + self.held(&point.law);
+            new.traction - before.tractions[i] + slope * joints.interface.local(point, step)
+        };
+        let missed = joints.interface.forces(joints.interface.points.iter().enumerate().map(off_its_line));
+        Iterate { missed, tractions: branches.responses.iter().map(|r| r.traction).collect(), jumps, branches }
+    }
+
+    /// The displacements that the joints' forces make.
+    fn solution(
         &self,
-        problem: &Problem,
-        residual: &Residual,
-        before: Option<&Vec<Status>>,
-        last: Vec<Status>,
-    ) -> Unsettled {
-        let forces =
-            (0..residual.force.len()).filter_map(|i| Some((residual.force[i].abs(), problem.interface.point_of(i)?)));
+        Problem { joints, b, .. }: &Problem,
+        Branches { at, responses }: &Branches,
+        iterations: usize,
+        displacement_test: f64,
+    ) -> Solution {
+        let interface = joints.interface;
+        let points = interface.points.iter().zip(responses);
+        let beyond = points.map(|(p, r)| r.traction - self.held(&p.law) * interface.local(p, at));
+        let border = self.border.displacements(&self.border.pulled(b, &interface.forces(beyond)));
+        Solution { border, jumps: at.clone(), responses: responses.clone(), iterations, displacement_test }
+    }
+
+    /// Whether the jumps are those of the displacements that the joints' forces make, to the tolerance or to what
+    /// round-off leaves of their digits.
+    fn fits(&self, problem: &Problem, solution: &Solution) -> bool {
+        let difference = distance(&self.border.jumps(&solution.border), &solution.jumps);
+        let jumps = norm(&solution.jumps).max(norm(problem.free));
+        difference <= (self.options.tolerance * jumps).max(ROUND_OFF * norm(&solution.border))
+    }
+
+    fn unsettled(&self, problem: &Problem, iterate: &Iterate, scale: f64, before: Option<&Vec<Status>>) -> Unsettled {
+        let Iterate { missed, branches, .. } = iterate;
+        let interface = problem.joints.interface;
+        let forces = (0..missed.len()).filter_map(|i| Some((missed[i].abs(), interface.point_of(i)?)));
         // what is not a number is the largest of all
         let largest = forces.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point);
-        if !residual.relative().is_finite() {
+        let relative = ratio(norm(missed), scale);
+        if !relative.is_finite() {
             return Unsettled::Overflow(largest.map_or(Place::Matrix, Place::JointPoint));
         }
+        let last = branches.statuses();
         match before.map(|before| differing(before, &last)) {
             Some(changing) if !changing.is_empty() => Unsettled::Statuses { changing, last },
-            _ => Unsettled::Residual { relative: residual.relative(), largest, last },
+            _ => Unsettled::Residual { relative, largest, last },
         }
     }
 
-    /// D of every point for Newton's matrix.
-    pub(super) fn tangents(&self, problem: &Problem, responses: &[Response]) -> Vec<Matrix2<f64>> {
-        let points = responses.iter().zip(&problem.interface.points);
-        points.map(|(r, p)| r.tangent + p.law.closed_stiffness() * self.stabilisation).collect()
+    /// D - D_0 of every point for Newton's matrix [Pa/m].
+    fn tangents(&self, joints: &Joints, responses: &[Response]) -> Vec<Matrix2<f64>> {
+        let points = responses.iter().zip(&joints.interface.points);
+        points.map(|(r, p)| r.tangent + p.law.closed_stiffness() * self.stabilisation() - self.held(&p.law)).collect()
     }
 
-    /// S j + r - b.
-    pub(super) fn residual(&self, problem: &Problem, jumps: &[f64], responses: &[Response]) -> Residual {
-        self.residual_with(problem, jumps, problem.interface.forces(responses.iter().map(|r| r.traction)))
-    }
-
-    fn residual_with(&self, problem: &Problem, jumps: &[f64], joint: Vec<f64>) -> Residual {
-        let b = problem.right_hand_side;
-        let linear = match &self.last {
-            Some((last, product)) if last == jumps => product.clone(),
-            _ => dense_times(&self.schur, jumps),
-        };
-        let force = (0..b.len()).map(|i| linear[i] + joint[i] - b[i]).collect();
-        let scale = norm(b).max(norm(&linear)).max(norm(&joint));
-        Residual { force, scale, linear, predicted: false }
-    }
-
-    /// S j + r - b with r on the straight line through a branch: r(at) + D (j - at).
-    fn on_branches(&self, problem: &Problem, jumps: &[f64], branches: &Branches) -> Residual {
-        if branches.at == jumps {
-            return self.residual(problem, jumps, &branches.responses);
+    /// D_0 of a point [Pa/m].
+    pub(super) fn held(&self, law: &JointLaw) -> Matrix2<f64> {
+        match self.reference {
+            Reference::Bodies => Matrix2::zeros(),
+            Reference::ClosedJoints => law.closed_stiffness(),
         }
-        let lines = branches.lines(problem, jumps);
-        Residual { predicted: true, ..self.residual_with(problem, jumps, problem.interface.forces(lines)) }
     }
 
-    /// The residual after a Newton step without S: on the old branches it is zero, so what is left is what the new ones
-    /// differ from them, which is nothing at every point that stayed on its branch.
-    fn predicted(&self, problem: &Problem, old: &Branches, new: &Branches, last: &Residual) -> Residual {
-        let same = |i: usize| {
-            let (old, new) = (&old.responses[i], &new.responses[i]);
-            self.stabilisation == 0. && old.status == new.status && old.tangent == new.tangent
-        };
-        let missed = |(i, on_old): (usize, Vector2<f64>)| match same(i) {
-            true => Vector2::zeros(),
-            false => new.responses[i].traction - on_old,
-        };
-        let force = problem.interface.forces(old.lines(problem, &new.at).enumerate().map(missed));
-        Residual { force, scale: last.scale, linear: Vec::new(), predicted: true }
-    }
-}
-
-/// What every joint point answers to some jumps, and along which line it goes on from there.
-struct Branches {
-    /// the jumps [m]
-    at: Vec<f64>,
-    statuses: Vec<Status>,
-    responses: Vec<Response>,
-    /// D of Newton's matrix [Pa/m]
-    tangents: Vec<Matrix2<f64>>,
-}
-
-impl Branches {
-    /// r(at) + D (j - at) of every point [Pa].
-    fn lines<'a>(&'a self, problem: &'a Problem, jumps: &[f64]) -> impl Iterator<Item = Vector2<f64>> + 'a {
-        let moved: Vec<f64> = jumps.iter().zip(&self.at).map(|(j, at)| j - at).collect();
-        let points = self.responses.iter().zip(&self.tangents).zip(&problem.interface.points);
-        points.map(move |((r, d), point)| r.traction + d * problem.interface.local(point, &moved))
-    }
-}
-
-pub(super) struct Residual {
-    /// S j + r - b [N]
-    pub force: Vec<f64>,
-    /// what it is measured against [N]
-    scale: f64,
-    /// S j [N], unless predicted
-    linear: Vec<f64>,
-    /// known but for round-off
-    predicted: bool,
-}
-
-impl Residual {
-    pub fn relative(&self) -> f64 {
-        ratio(norm(&self.force), self.scale)
-    }
-}
-
-impl Problem<'_> {
-    /// Every point's answer; with `bounds` [Pa] under Tresca's law.
-    pub(super) fn respond(&self, jumps: &[f64], bounds: Option<&[f64]>) -> Vec<Response> {
-        let points = self.interface.points.iter().zip(self.old).enumerate();
-        points
-            .map(|(i, (point, old))| {
-                let friction = bounds.map_or(point.law.friction, |b| Friction::Tresca(b[i]));
-                let law = JointLaw { friction, ..point.law };
-                let elastic = law.respond(self.interface.local(point, jumps), old.slip);
-                match &self.damping {
-                    None => elastic,
-                    Some(damping) => {
-                        let offset = self.interface.local(point, &damping.rate_offset);
-                        let jump = self.interface.local(point, jumps);
-                        damping.add_to(elastic, &law, old.status, jump * damping.constants.a1 + offset)
-                    }
-                }
-            })
-            .collect()
-    }
-
-    /// f p at every point [Pa], p the elastic pressure.
-    pub(super) fn bounds(&self, jumps: &[f64]) -> Vec<f64> {
-        let limit = |(point, old): (&JointPoint, &JointState)| match point.law.friction {
-            Friction::Tresca(bound) => bound,
-            Friction::Coulomb(f) => f * -point.law.respond(self.interface.local(point, jumps), old.slip).traction[1],
-        };
-        self.interface.points.iter().zip(self.old).map(limit).collect()
-    }
-}
-
-impl JointDamping {
-    /// Adds beta D rate, D the stiffness that the last step's status left: all of it sticking, the normal part slipping,
-    /// none open. The status of this step would make the force jump where a joint opens, and leave no equilibrium there.
-    fn add_to(&self, elastic: Response, law: &JointLaw, last: Status, rate: Vector2<f64>) -> Response {
-        let d = match last {
-            Status::Open => Matrix2::zeros(),
-            Status::Stick => law.closed_stiffness(),
-            Status::SlipForward | Status::SlipBackward => Matrix2::new(0., 0., 0., law.normal_stiffness),
-        };
-        Response {
-            traction: elastic.traction + d * rate * self.beta,
-            tangent: elastic.tangent + d * (self.beta * self.constants.a1),
-            ..elastic
+    /// Part of the closed stiffness that every tangent keeps. Without inertia a body that slips all round can turn without
+    /// resistance. Only the way to the solution changes, not the solution: what is missed knows nothing of it.
+    pub(super) fn stabilisation(&self) -> f64 {
+        match self.reference {
+            Reference::Bodies => 0.,
+            Reference::ClosedJoints => 1e-9,
         }
     }
 }

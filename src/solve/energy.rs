@@ -8,7 +8,6 @@
 //! The residual is round-off; with other Newmark parameters or HHT it is their numerical damping, and where the case
 //! starts with a = 0 it holds the first imbalance.
 
-use super::step::Step;
 use super::system::{Products, Rayleigh, State, System};
 use crate::sparse::multiply;
 use crate::sparse::vector::dot;
@@ -68,10 +67,13 @@ impl Ledger {
         let joint_force = joint_force(system, new);
         let du: Vec<f64> = new.q.iter().zip(&old.q).map(|(n, o)| n - o).collect();
 
-        let work = mean_dot(&self.load, &load, &du);
+        let work = mean_dot(&self.load, &load, system.displacements(&du));
         let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
         let stored = stored(system, new, forms);
-        let dashpots = system.dashpots.as_ref().map_or(0., |c| dt * drained_by(c, &old.v, &new.v));
+        let dashpots = system
+            .dashpots
+            .as_ref()
+            .map_or(0., |c| dt * drained_by(c, system.displacements(&old.v), system.displacements(&new.v)));
         let damping = dt * forms.drained - dashpots;
         let beyond = outside(system, new).iter().sum::<f64>() - outside(system, old).iter().sum::<f64>();
         let friction = friction(system, old, new);
@@ -123,9 +125,9 @@ pub fn joint_gain(system: &System, old: &State, new: &State) -> f64 {
     stored_in_joints(system, new) - stored_in_joints(system, old) + friction(system, old, new) - work
 }
 
-/// Kinetic + strain + joint energy at the end of a step [J].
-pub fn mechanical(system: &System, step: &Step) -> f64 {
-    let stored = stored(system, &step.state, step.forms);
+/// Kinetic + strain + joint energy of a state [J].
+pub fn mechanical(system: &System, state: &State, forms: Forms) -> f64 {
+    let stored = stored(system, state, forms);
     stored.kinetic + stored.strain + stored.joint
 }
 
@@ -189,7 +191,10 @@ fn stored_in_joints(system: &System, state: &State) -> f64 {
 fn outside(system: &System, state: &State) -> [f64; 2] {
     let Rayleigh { alpha, beta } = system.rayleigh;
     let Some(dashpots) = &system.dashpots else { return [0.; 2] };
-    [(beta, &state.v), (alpha, &state.q)].map(|(factor, x)| factor / 4. * dot(x, &multiply(dashpots, x)))
+    [(beta, &state.v), (alpha, &state.q)].map(|(factor, x)| {
+        let x = system.displacements(x);
+        factor / 4. * dot(x, &multiply(dashpots, x))
+    })
 }
 
 fn free_field(system: &System, state: &State) -> Vec<(usize, f64)> {

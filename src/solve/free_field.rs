@@ -37,19 +37,16 @@ pub struct Column {
 impl Column {
     pub fn new(model: &Model, unknowns: &Unknowns, side: &FreeField, orders: &Orders) -> Result<Column> {
         let system = System::ordered(&side.column, orders)?;
-        let on_side = side.twin.keys().flat_map(|&node| [unknowns.row(node, 0), unknowns.row(node, 1)]);
-        let mut own: Vec<usize> = on_side.flatten().map(|&(i, _)| i).collect();
+        let on_side = side.twin.keys().flat_map(|&node| [unknowns.of(node, 0), unknowns.of(node, 1)]);
+        let mut own: Vec<usize> = on_side.flatten().collect();
         own.sort_unstable();
-        own.dedup();
         let size = (own.len(), system.unknowns.count);
         let (mut pressure, mut drag) = (TriMat::new(size), TriMat::new(size));
         for (a, b, axis, value) in side.lines.iter().flat_map(|line| couplings(model, line, side.outward)) {
             let matrix = if axis == 0 { &mut pressure } else { &mut drag };
-            for &(i, sign_i) in unknowns.row(a, axis) {
-                let row = own.binary_search(&i).expect("the rows of all nodes of the side are there");
-                for &(j, sign_j) in system.unknowns.row(side.twin[&b], 1) {
-                    matrix.add_triplet(row, j, sign_i * sign_j * value);
-                }
+            if let (Some(i), Some(j)) = (unknowns.of(a, axis), system.unknowns.of(side.twin[&b], 1)) {
+                let row = own.binary_search(&i).expect("the unknowns of all nodes of the side are there");
+                matrix.add_triplet(row, j, value);
             }
         }
         Ok(Column {

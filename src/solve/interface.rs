@@ -60,7 +60,7 @@ impl From<&Response> for JointState {
     }
 }
 
-/// All joint points, over the vector of jumps: the trailing unknowns, `count` of them.
+/// All joint points, over the vector of jumps, `count` of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interface {
     pub count: usize,
@@ -70,14 +70,13 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// `laws` per joint element; `jumps` of each pair as unknowns that start at `first_jump`.
+    /// `laws` per joint element; `places` of the jumps of each pair, none where supports hold both nodes.
     pub fn new(
         mesh: &Mesh,
         pairs: &[Pair],
         joints: &[Joint],
         laws: &[(JointLaw, Integration)],
-        jumps: &[[Option<usize>; 2]],
-        first_jump: usize,
+        places: &[[Option<usize>; 2]],
     ) -> Interface {
         let points: Vec<JointPoint> = joints
             .iter()
@@ -90,8 +89,8 @@ impl Interface {
                     .map(move |(r, w)| joint_point(number, joint, law, &at, r, w))
             })
             .collect();
-        let places: Vec<_> = jumps.iter().map(|j| j.map(|q| q.map(|q| q - first_jump))).collect();
-        Interface { count: places.iter().flatten().flatten().count(), points: with_common_normals(points), places }
+        let count = places.iter().flatten().flatten().count();
+        Interface { count, points: with_common_normals(points), places: places.to_vec() }
     }
 
     /// R N j: (tangential, normal) jump at a point [as j].

@@ -183,7 +183,7 @@ mod tests {
         let law =
             JointLaw { normal_stiffness: 50., tangential_stiffness: 20., friction: Friction::Coulomb(0.3), gap: 0. };
         let jumps: Vec<_> = (0..PAIRS).map(|p| [Some(2 * p), Some(2 * p + 1)]).collect();
-        Interface::new(&mesh, &pairs, &joints, &vec![(law, integration); joints.len()], &jumps, 0)
+        Interface::new(&mesh, &pairs, &joints, &vec![(law, integration); joints.len()], &jumps)
     }
 
     /// Statuses that change here and there, once nearly everywhere: corrected solutions, corrected inverses, new ones.

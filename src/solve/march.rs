@@ -1,9 +1,9 @@
 //! The march through time: equal steps, cut in half where the joints do not settle, always back on the grid.
 
-use super::contact::{Place, Unsettled};
 use super::energy::{joint_gain, mechanical};
 use super::step::{Scheme, Step, Stepper, step_together};
 use super::system::{State, System};
+use super::unsettled::{Place, Unsettled};
 use crate::model::case::Newton;
 use crate::sparse::{NotPositiveDefinite, Symbolic};
 
@@ -34,7 +34,7 @@ impl Budget {
     /// about kappa v^2 dt^2, a quarter of it after halving the step.
     fn allows(&mut self, system: &System, old: &State, step: &Step) -> bool {
         let new = &step.state;
-        self.peak = self.peak.max(mechanical(system, step));
+        self.peak = self.peak.max(mechanical(system, new, step.forms));
         joint_gain(system, old, new) <= self.rate * (new.time - old.time) * self.peak
     }
 }

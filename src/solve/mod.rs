@@ -1,12 +1,14 @@
-//! The equations: assembled, condensed to the interface jumps, marched through time.
+//! The equations: assembled, condensed to the nodes of the interfaces, marched through time.
 
 pub mod assembly;
+pub mod border;
 pub mod condensed;
 pub mod contact;
 pub mod energy;
 pub mod free_field;
 pub mod interface;
 mod inverse;
+pub mod joints;
 pub mod march;
 pub mod modes;
 pub mod newmark;
@@ -15,3 +17,4 @@ pub mod step;
 pub mod system;
 mod tresca;
 pub mod unknowns;
+pub mod unsettled;

@@ -1,9 +1,10 @@
 //! The state at t = 0: equilibrium under gravity, what the case gives its groups, and the first acceleration.
 
-use super::condensed::{Condensed, Reference};
-use super::contact::Unsettled;
+use super::condensed::Condensed;
+use super::contact::Reference;
 use super::interface::JointState;
 use super::system::{State, System};
+use super::unsettled::Unsettled;
 use crate::model::case::{Newton, Start};
 use crate::sparse::vector::{add, add_at};
 use crate::sparse::{NotPositiveDefinite, Symbolic, multiply};
@@ -28,8 +29,8 @@ pub fn under_gravity(
     let mut in_parts = |parts: usize| {
         (1..=parts).try_fold(rest.clone(), |old, part| {
             let load = system.gravity.iter().map(|f| f * part as f64 / parts as f64).collect();
-            let (q, settled) = condensed.solve(system, load, system.jumps(&old.q), &old.joints, None)?;
-            Ok(State { q, joints: settled.joints, ..old })
+            let (q, settled) = condensed.solve(system, load, system.jumps(&old.q), &old.joints)?;
+            Ok(State { q, joints: settled.responses.iter().map(JointState::from).collect(), ..old })
         })
     };
     let mut found = in_parts(PARTS[0]);
@@ -46,10 +47,10 @@ pub fn under_gravity(
 /// K u + r(j) - gravity [N] of what only held the former: they go on as forces, about which the ground then moves.
 pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f64>) {
     let q = system.unknowns.from_nodes(&held.unknowns.at_nodes(&state.q));
-    let mut unbalanced = multiply(&system.stiffness, &q);
+    let mut unbalanced = multiply(&system.stiffness, system.displacements(&q));
     add(&mut unbalanced, -1., &system.gravity);
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
-    add(&mut unbalanced[system.unknowns.first_jump..], 1., &joint_forces);
+    system.unknowns.add_at_jumps(&mut unbalanced, 1., &joint_forces);
     // Elsewhere only the boundaries' springs, which were not there, are to be balanced; the rest is what Newton left.
     let mut reactions = system.boundary_springs(&q);
     for i in system.unknowns.freed_from(&held.unknowns) {
@@ -93,10 +94,11 @@ pub fn with_acceleration(
     add_at(&mut a, 1., &system.free_field_force(&free_field));
     add_at(&mut a, 1., &system.free_field_inertia(&free_field));
     for (matrix, x) in [(&system.damping, &state.v), (&system.stiffness, &state.q)] {
-        add(&mut a, -1., &multiply(matrix, x));
+        add(&mut a, -1., &multiply(matrix, system.displacements(x)));
     }
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
-    add(&mut a[system.unknowns.first_jump..], -1., &joint_forces);
+    system.unknowns.add_at_jumps(&mut a, -1., &joint_forces);
     symbolic.solve_once(&system.mass, &mut a)?;
+    a.extend(system.unknowns.differences(&a));
     Ok(State { a, free_field, ..state })
 }

@@ -3,13 +3,15 @@
 //! M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t + r(j) = (1 + alpha) f - alpha f_t, everything without index at the new
 //! time, joint forces too; alpha = 0 is Newmark's method. K* = a0 M + (1 + alpha)(a1 C + K).
 
-use super::condensed::{Condensed, Reference, Settled};
-use super::contact::{JointDamping, Unsettled};
+use super::condensed::Condensed;
+use super::contact::{Reference, Solution};
 use super::energy::Forms;
 use super::free_field::Column;
 use super::interface::JointState;
+use super::joints::{JointDamping, Joints};
 use super::newmark::Constants;
 use super::system::{Products, State, System, combine};
+use super::unsettled::Unsettled;
 use crate::model::case::{Integrator, Newton};
 use crate::sparse::vector::{add, add_at};
 use crate::sparse::{MOST_LANES, NotPositiveDefinite, Symbolic, multiply, with_lanes_for};
@@ -101,14 +103,15 @@ impl Stepper {
         step_together(&mut [self], &[system], &[old]).swap_remove(0)
     }
 
-    /// Between the sweeps: from the condensed right-hand side to the jumps, put in its place.
-    fn settle(&mut self, system: &System, jumps: &mut [f64], old: &State) -> Result<Settled, Unsettled> {
+    /// Between the sweeps: from the condensed right-hand side at the border to the displacements there.
+    fn settle(&mut self, system: &System, border: &[f64], old: &State) -> Result<Solution, Unsettled> {
         let last = system.jumps(&old.q);
         let (expected, damping) = match self.law {
             Law::Static { .. } => (last.to_vec(), None),
             Law::Dynamic(dynamic) => (dynamic.expected_jumps(system, old), dynamic.joint_damping(system, old)),
         };
-        self.condensed.settle(system, jumps, [last, &expected], &old.joints, damping)
+        let joints = Joints { interface: &system.interface, old: &old.joints, damping };
+        self.condensed.settle(border, joints, last, &expected)
     }
 
     /// After the backward sweep.
@@ -150,7 +153,7 @@ impl Dynamic {
             let mut change = f.clone();
             add(&mut change, -1., &system.load(old.time));
             add_at(&mut change, -1., &system.free_field_force(&old.free_field));
-            add(&mut change, 1., &multiply(&system.stiffness, &old.q));
+            add(&mut change, 1., &multiply(&system.stiffness, system.displacements(&old.q)));
             add(&mut f, self.hht, &change);
         }
         add_at(&mut f, weight, &system.free_field_force(free_field));
@@ -202,15 +205,15 @@ fn step_lanes<const K: usize>(
     let free_fields: Vec<_> = (0..old.len()).map(|k| steppers[k].free_field(systems[k], old[k])).collect();
     let mut x = right_hand_sides::<K>(steppers, systems, old, &free_fields);
     steppers[0].condensed.factor().condense_lanes(&mut x);
-    let first = systems[0].unknowns.first_jump;
+    let border = systems[0].unknowns.border;
     let settled: Vec<_> = (0..old.len())
         .map(|k| {
             if let Err(why) = &free_fields[k] {
                 return Err(why.clone());
             }
-            let mut jumps: Vec<f64> = x[first..].iter().map(|x| x[k]).collect();
-            let settled = steppers[k].settle(systems[k], &mut jumps, old[k])?;
-            x[first..].iter_mut().zip(&jumps).for_each(|(x, jump)| x[k] = *jump);
+            let at_border: Vec<f64> = x[border..].iter().map(|x| x[k]).collect();
+            let settled = steppers[k].settle(systems[k], &at_border, old[k])?;
+            x[border..].iter_mut().zip(&settled.border).for_each(|(x, displacement)| x[k] = *displacement);
             Ok(settled)
         })
         .collect();
@@ -220,8 +223,9 @@ fn step_lanes<const K: usize>(
         .zip(free_fields)
         .enumerate()
         .map(|(k, (settled, free_field))| {
-            let Settled { joints, iterations, displacement_test } = settled?;
-            let q = x.iter().map(|x| x[k]).collect();
+            let Solution { jumps, responses, iterations, displacement_test, .. } = settled?;
+            let q = x.iter().map(|x| x[k]).chain(jumps).collect();
+            let joints = responses.iter().map(JointState::from).collect();
             let state = steppers[k].complete(q, free_field?, joints, old[k]);
             Ok(Step { state, iterations, displacement_test, forms: Forms::default() })
         })

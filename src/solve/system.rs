@@ -74,7 +74,7 @@ pub struct Rayleigh {
 pub struct State {
     /// [s]
     pub time: f64,
-    /// [m], [m/s], [m/s^2]
+    /// [m], [m/s], [m/s^2], the jumps' behind the unknowns'
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub a: Vec<f64>,
@@ -154,9 +154,9 @@ impl System {
         }
     }
 
-    /// The pattern of all matrices, ready for factors that leave the jumps for last.
+    /// The pattern of all matrices, ready for factors that leave the nodes of the interfaces for last.
     pub fn symbolic(&self) -> Symbolic {
-        Symbolic::bordered(&self.mass, self.unknowns.first_jump)
+        Symbolic::bordered(&self.mass, self.unknowns.border)
     }
 
     /// f(t) [N]: loads, weight, and what held the boundaries when nothing moved.
@@ -168,7 +168,7 @@ impl System {
         }
         for (node, force) in self.fronts.iter().flat_map(|front| front.forces(time)) {
             for axis in 0..2 {
-                self.unknowns.row(node, axis).iter().for_each(|&(i, sign)| f[i] += sign * force[axis]);
+                self.unknowns.of(node, axis).iter().for_each(|&i| f[i] += force[axis]);
             }
         }
         f
@@ -176,7 +176,8 @@ impl System {
 
     /// The boundaries' share of K u, alpha D u / 2 [N].
     pub fn boundary_springs(&self, q: &[f64]) -> Vec<f64> {
-        let forces = self.dashpots.as_ref().map_or(vec![0.; q.len()], |d| multiply(d, q));
+        let count = self.unknowns.count;
+        let forces = self.dashpots.as_ref().map_or(vec![0.; count], |d| multiply(d, self.displacements(q)));
         forces.into_iter().map(|f| self.rayleigh.alpha / 2. * f).collect()
     }
 
@@ -190,18 +191,27 @@ impl System {
         self.columns.iter().zip(states).flat_map(|(column, state)| column.inertia(state)).collect()
     }
 
-    /// The trailing part of a vector: the jumps.
+    /// The part of a state's vector behind the unknowns: the jumps.
     pub fn jumps<'a>(&self, q: &'a [f64]) -> &'a [f64] {
-        &q[self.unknowns.first_jump..]
+        &q[self.unknowns.count..]
+    }
+
+    /// The part of a state's vector that the matrices know: the unknowns.
+    pub fn displacements<'a>(&self, q: &'a [f64]) -> &'a [f64] {
+        &q[..self.unknowns.count]
     }
 
     /// K with every joint closed and sticking: the reference of natural frequencies.
     pub fn closed_stiffness(&self) -> CsMat<f64> {
         let mut closed = CsMat::clone(&self.stiffness);
-        let first = self.unknowns.first_jump;
         for point in &self.interface.points {
             self.interface.tangent(point, &point.law.closed_stiffness(), |i, j, value| {
-                *closed.get_mut(first + i, first + j).expect("the pattern holds every joint element") += value;
+                for (row, sign_i) in self.unknowns.sides_of(i) {
+                    for (column, sign_j) in self.unknowns.sides_of(j) {
+                        let entry = closed.get_mut(row, column).expect("the pattern holds every joint element");
+                        *entry += sign_i * sign_j * value;
+                    }
+                }
             });
         }
         closed
@@ -209,7 +219,7 @@ impl System {
 }
 
 fn interface(model: &Model, unknowns: &Unknowns) -> Interface {
-    Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps, unknowns.first_jump)
+    Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps)
 }
 
 fn loads(model: &Model, unknowns: &Unknowns) -> Vec<(Vec<f64>, Pulse)> {
@@ -233,7 +243,7 @@ impl State {
     }
 
     pub fn at_rest(system: &System) -> State {
-        let zero = vec![0.; system.unknowns.count];
+        let zero = vec![0.; system.unknowns.with_jumps()];
         State {
             time: 0.,
             q: zero.clone(),

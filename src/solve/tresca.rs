@@ -1,51 +1,77 @@
 //! The fixed point on Tresca's bound, for contact problems in which Newton's statuses run in a circle.
 
-use super::contact::{Contact, Problem, Solution, distance, ratio};
+use super::contact::{Contact, Problem, distance, ratio};
+use super::inverse::dense_times;
+use super::joints::Joints;
 use crate::physics::joint::Response;
-use crate::sparse::vector::dot;
+use crate::sparse::vector::{dot, norm};
 use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 
 /// Relative imbalance that the sweeps' round-off may leave in b, where stiff closed joints make S of small differences.
 const SWEEPS: f64 = 1e-9;
 
+/// S j + r(j) = b, what is left of the equations when all but the jumps is eliminated.
+struct Condensate<'a> {
+    joints: &'a Joints<'a>,
+    schur: Mat<f64>,
+    b: Vec<f64>,
+    /// part of the closed stiffness that every tangent keeps
+    stabilisation: f64,
+}
+
+/// A fixed point: no statuses that agree with the jumps to the last digit, but jumps that meet the tolerance.
+#[derive(Debug, Clone)]
+pub struct FixedPoint {
+    pub jumps: Vec<f64>,
+    pub iterations: usize,
+    /// the paper's test (19)
+    pub displacement_test: f64,
+}
+
 impl Contact {
     /// Outer loop on the bound f p; the inner problem with a fixed bound is convex and always solved.
-    pub(super) fn fixed_point(&self, problem: &Problem, guess: &[f64]) -> Option<Solution> {
-        let mut jumps = guess.to_vec();
-        let mut bounds = problem.bounds(&jumps);
+    pub(super) fn fixed_point(&self, problem: &Problem) -> Option<FixedPoint> {
+        let condensate = self.condensate(problem);
+        let mut jumps = problem.last.to_vec();
+        let mut bounds = problem.joints.bounds(&jumps);
         for iterations in 1..=10 * self.options.max_iterations {
-            let next = self.minimise(problem, &jumps, &bounds)?;
+            let next = self.minimise(&condensate, &jumps, &bounds)?;
             let correction = distance(&next, &jumps);
             jumps = next;
-            let responses = problem.respond(&jumps, None);
-            if self.residual(problem, &jumps, &responses).relative() <= self.options.tolerance {
-                let displacement_test = ratio(correction, distance(&jumps, guess));
-                return Some(Solution { jumps, responses, iterations, displacement_test });
+            if condensate.residual(&jumps, None).relative() <= self.options.tolerance {
+                let displacement_test = ratio(correction, distance(&jumps, problem.last));
+                return Some(FixedPoint { jumps, iterations, displacement_test });
             }
-            bounds = problem.bounds(&jumps);
+            bounds = problem.joints.bounds(&jumps);
         }
         None
+    }
+
+    fn condensate<'a>(&self, problem: &'a Problem) -> Condensate<'a> {
+        let mut schur = self.border.schur.clone();
+        let b = self.border.forces(problem.free);
+        let interface = problem.joints.interface;
+        for point in &interface.points {
+            interface.tangent(point, &self.held(&point.law), |i, j, value| schur[(i, j)] -= value);
+        }
+        Condensate { joints: &problem.joints, schur, b, stabilisation: self.stabilisation() }
     }
 
     /// Minimises 1/2 j'S j - b'j + sum area psi(j), convex and piecewise quadratic for fixed bounds: Newton with an exact
     /// line search, also beyond the full step: along what slips freely the tangent has nothing but its stabilisation, which
     /// says the direction and not the length.
-    fn minimise(&self, problem: &Problem, start: &[f64], bounds: &[f64]) -> Option<Vec<f64>> {
+    fn minimise(&self, condensate: &Condensate, start: &[f64], bounds: &[f64]) -> Option<Vec<f64>> {
         let mut jumps = start.to_vec();
         for _ in 0..10 * self.options.max_iterations {
-            let responses = problem.respond(&jumps, Some(bounds));
-            let residual = self.residual(problem, &jumps, &responses);
+            let residual = condensate.residual(&jumps, Some(bounds));
             let relative = residual.relative();
             if relative <= self.options.tolerance / 10. {
                 return Some(jumps);
             }
-            let step = solve_dense(&self.tangent(problem, &responses).partial_piv_lu(), residual.force);
+            let step = solve_dense(&condensate.tangent(&residual.responses).partial_piv_lu(), residual.force);
             let moved = |alpha: f64| -> Vec<f64> { jumps.iter().zip(&step).map(|(j, d)| j - alpha * d).collect() };
-            let slope = |alpha: f64| {
-                let j = moved(alpha);
-                -dot(&self.residual(problem, &j, &problem.respond(&j, Some(bounds))).force, &step)
-            };
+            let slope = |alpha: f64| -dot(&condensate.residual(&moved(alpha), Some(bounds)).force, &step);
             match crossing(slope) {
                 Some(alpha) => jumps = moved(alpha),
                 // Nothing resists, as the rotation of a round body with bounds of 0: the imbalance is the sweeps' round-off.
@@ -54,11 +80,37 @@ impl Contact {
         }
         None
     }
+}
 
-    fn tangent(&self, problem: &Problem, responses: &[Response]) -> Mat<f64> {
-        let mut tangent = Mat::clone(&self.schur);
-        for (point, d) in problem.interface.points.iter().zip(self.tangents(problem, responses)) {
-            problem.interface.tangent(point, &d, |i, j, value| tangent[(i, j)] += value);
+struct Residual {
+    responses: Vec<Response>,
+    /// S j + r - b [N]
+    force: Vec<f64>,
+    /// what it is measured against, max(|b|, |S j|, |r|) [N]
+    scale: f64,
+}
+
+impl Residual {
+    fn relative(&self) -> f64 {
+        ratio(norm(&self.force), self.scale)
+    }
+}
+
+impl Condensate<'_> {
+    fn residual(&self, jumps: &[f64], bounds: Option<&[f64]>) -> Residual {
+        let responses = self.joints.respond(jumps, bounds);
+        let joint = self.joints.interface.forces(responses.iter().map(|r| r.traction));
+        let linear = dense_times(&self.schur, jumps);
+        let force = (0..jumps.len()).map(|i| linear[i] + joint[i] - self.b[i]).collect();
+        let scale = norm(&self.b).max(norm(&linear)).max(norm(&joint));
+        Residual { responses, force, scale }
+    }
+
+    fn tangent(&self, responses: &[Response]) -> Mat<f64> {
+        let mut tangent = self.schur.clone();
+        for (point, r) in self.joints.interface.points.iter().zip(responses) {
+            let d = r.tangent + point.law.closed_stiffness() * self.stabilisation;
+            self.joints.interface.tangent(point, &d, |i, j, value| tangent[(i, j)] += value);
         }
         tangent
     }

@@ -8,6 +8,7 @@ pub mod ordering;
 pub mod orders;
 mod panels;
 pub mod sweeps;
+pub mod symmetric;
 pub mod upper;
 pub mod vector;
 mod widest;
@@ -16,6 +17,7 @@ pub use factor::{Factor, NotPositiveDefinite, Symbolic, UnreliablePivot};
 pub use lanczos::{Mode, smallest_modes};
 pub use ordering::{Graph, elimination_order};
 pub use orders::Orders;
+pub use symmetric::Symmetric;
 pub use upper::Upper;
 
 use sprs::CsMat;

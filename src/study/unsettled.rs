@@ -5,8 +5,8 @@ use crate::Error;
 use crate::model::case::Analysis;
 use crate::number::seconds;
 use crate::physics::joint::Status;
-use crate::solve::contact::{Place, Unsettled};
 use crate::solve::march::MAX_CUTS;
+use crate::solve::unsettled::{Place, Unsettled};
 
 /// Relative residual near which a computer's 16 digits end.
 const LAST_DIGITS: f64 = 1e-9;

@@ -1,0 +1,100 @@
+//! What bodies and ground do where they meet: T, the Schur complement of the displacements of interface nodes, inverted
+//! once. Without joints ground and bodies know nothing of each other there, and T falls apart into blocks.
+
+use super::unknowns::Unknowns;
+use crate::sparse::{Factor, Symmetric};
+use faer::linalg::solvers::DenseSolveCore;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Mat, Par};
+
+pub struct Border {
+    blocks: Vec<Block>,
+    /// (place at the border, sign) of the displacements whose sum each jump is
+    sides: Vec<Vec<(usize, f64)>>,
+    /// S = (N T^-1 N')^-1, the forces at the jumps that make jumps [N/m]
+    pub schur: Mat<f64>,
+    packed_schur: Symmetric,
+}
+
+/// A part of T that nothing couples to the rest.
+struct Block {
+    /// ascending
+    places: Vec<usize>,
+    /// T^-1 [m/N]
+    inverse: Symmetric,
+}
+
+impl Border {
+    /// T = L_cc L_cc', L_cc the trailing block of the factor.
+    pub fn new(factor: &Factor, unknowns: &Unknowns) -> Border {
+        let trailing = factor.trailing(unknowns.count - unknowns.border);
+        let mut inverse = Mat::zeros(trailing.nrows(), trailing.ncols());
+        let mut blocks = Vec::new();
+        for places in independent(&trailing) {
+            let n = places.len();
+            let l = Mat::from_fn(n, n, |i, j| trailing[(places[i], places[j])]);
+            let mut l_inverse = Mat::identity(n, n);
+            solve_lower_triangular_in_place(l.as_ref(), l_inverse.as_mut(), Par::Seq);
+            let of_block = l_inverse.transpose() * &l_inverse;
+            (0..n).for_each(|j| (0..n).for_each(|i| inverse[(places[i], places[j])] = of_block[(i, j)]));
+            blocks.push(Block { inverse: Symmetric::new(&of_block), places });
+        }
+        let jumps = unknowns.with_jumps() - unknowns.count;
+        let at_border = |(unknown, sign): (usize, f64)| (unknown - unknowns.border, sign);
+        let sides: Vec<Vec<_>> = (0..jumps).map(|j| unknowns.sides_of(j).map(at_border).collect()).collect();
+        let between = |a: &[(usize, f64)], b: &[(usize, f64)]| -> f64 {
+            a.iter()
+                .flat_map(|&(i, s)| b.iter().map(move |&(j, t)| (i, j, s * t)))
+                .map(|(i, j, s)| s * inverse[(i, j)])
+                .sum()
+        };
+        let flexibility = Mat::from_fn(jumps, jumps, |a, b| between(&sides[a], &sides[b]));
+        let schur = flexibility.partial_piv_lu().inverse();
+        Border { blocks, sides, packed_schur: Symmetric::new(&schur), schur }
+    }
+
+    /// T^-1 b: displacements [m] under forces at the border [N].
+    pub fn displacements(&self, b: &[f64]) -> Vec<f64> {
+        let mut c = vec![0.; b.len()];
+        for Block { places, inverse } in &self.blocks {
+            let own: Vec<f64> = places.iter().map(|&i| b[i]).collect();
+            places.iter().zip(inverse.times(&own)).for_each(|(&i, own)| c[i] = own);
+        }
+        c
+    }
+
+    /// N c: the jumps of displacements of the border.
+    pub fn jumps(&self, c: &[f64]) -> Vec<f64> {
+        self.sides.iter().map(|sides| sides.iter().map(|&(i, sign)| sign * c[i]).sum()).collect()
+    }
+
+    /// S j: forces at the jumps [N].
+    pub fn forces(&self, jumps: &[f64]) -> Vec<f64> {
+        self.packed_schur.times(jumps)
+    }
+
+    /// b - N' forces: forces at the border [N] with those that pull the sides of the jumps together.
+    pub fn pulled(&self, b: &[f64], forces: &[f64]) -> Vec<f64> {
+        let mut pulled = b.to_vec();
+        for (sides, force) in self.sides.iter().zip(forces) {
+            sides.iter().for_each(|&(i, sign)| pulled[i] -= sign * force);
+        }
+        pulled
+    }
+}
+
+/// The rows of L that no entry couples to others, group by group.
+fn independent(l: &Mat<f64>) -> Vec<Vec<usize>> {
+    let n = l.nrows();
+    let mut group: Vec<usize> = (0..n).collect();
+    for j in 0..n {
+        for i in (j + 1..n).filter(|&i| l[(i, j)] != 0.) {
+            let (old, new) = (group[i].max(group[j]), group[i].min(group[j]));
+            if old != new {
+                group.iter_mut().filter(|g| **g == old).for_each(|g| *g = new);
+            }
+        }
+    }
+    let members = |g: usize| (0..n).filter(|&i| group[i] == g).collect::<Vec<_>>();
+    (0..n).map(members).filter(|places| !places.is_empty()).collect()
+}
