@@ -63,7 +63,7 @@ pub struct Contact {
 struct Iterate {
     jumps: Vec<f64>,
     branches: Branches,
-    /// at the jumps, on the lines that the last step was solved with [Pa]
+    /// at the jumps: the joints' answers, at the start what the lines through the branches say [Pa]
     tractions: Vec<Vector2<f64>>,
     /// S (j - j_0) + r - D_0 j [N]
     missed: Vec<f64>,
@@ -101,14 +101,13 @@ impl Contact {
     /// From the free jumps, on the branches of r that the `expected` ones lie on.
     fn newton(&mut self, problem: &Problem, expected: &[f64]) -> Result<Solution, Unsettled> {
         let mut iterate = self.start(problem, problem.free, problem.joints.branches(expected));
-        let mut scale = self.scale(problem, &iterate);
         let mut seen: Vec<Vec<Status>> = Vec::new();
         let (mut correction, mut again) = (0., false);
         for iterations in 0..=self.options.max_iterations {
             let statuses = iterate.branches.statuses();
             let settled = seen.last() == Some(&statuses);
             let tolerance = if settled { self.options.tolerance } else { ROUND_OFF };
-            if iterate.is_answered() && norm(&iterate.missed) <= tolerance * scale {
+            if iterate.is_answered() && norm(&iterate.missed) <= tolerance * self.scale(problem, &iterate) {
                 let displacement_test = ratio(correction, distance(&iterate.jumps, problem.last));
                 let solution = self.solution(problem, &iterate.branches, iterations, displacement_test);
                 if self.fits(problem, &solution) {
@@ -119,7 +118,9 @@ impl Contact {
             if (circles || settled) && (!again || self.inverse.is_corrected()) {
                 // Corrections may have worn the inverse, and stiff joints cost digits on the way from the free jumps: once
                 // more with a fresh one, from what these jumps really miss.
-                self.inverse.forget();
+                if self.inverse.is_corrected() {
+                    self.inverse.forget();
+                }
                 iterate = self.start(problem, &iterate.jumps, iterate.branches);
                 seen.clear();
                 again = true;
@@ -128,12 +129,12 @@ impl Contact {
             }
             let tangents = self.tangents(&problem.joints, &iterate.branches.responses);
             let step = self.inverse.solve(&self.border.schur, problem.joints.interface, &tangents, &iterate.missed);
-            iterate = self.after(&problem.joints, &iterate, &tangents, &step);
-            scale = scale.max(norm(&iterate.missed));
-            correction = if iterations == 0 { distance(&iterate.jumps, problem.last) } else { norm(&step) };
+            let next = self.after(&problem.joints, &iterate, &tangents, &step);
+            correction = distance(&next.jumps, if iterations == 0 { problem.last } else { &iterate.jumps });
+            iterate = next;
             seen.push(statuses);
         }
-        Err(self.unsettled(problem, &iterate, scale, seen.last()))
+        Err(self.unsettled(problem, &iterate, seen.last()))
     }
 
     /// At some jumps, on the lines through some branches.
@@ -150,9 +151,11 @@ impl Contact {
         Iterate { jumps: jumps.to_vec(), missed, branches, tractions }
     }
 
-    /// What forces are measured against [N].
-    fn scale(&self, problem: &Problem, iterate: &Iterate) -> f64 {
-        norm(&iterate.missed).max(norm(&problem.joints.interface.forces(iterate.tractions.iter().copied())))
+    /// What forces are measured against [N]: the joints' own, and about those that would close the free jumps.
+    fn scale(&self, Problem { joints, free, .. }: &Problem, iterate: &Iterate) -> f64 {
+        let closing = free.iter().zip(self.border.schur.diagonal().column_vector().iter()).map(|(j, s)| s * j);
+        let forces = joints.interface.forces(iterate.tractions.iter().copied());
+        norm(&forces).max(norm(&closing.collect::<Vec<_>>()))
     }
 
     /// After a step of Newton's, which goes where the lines that it was solved with miss nothing: so what is missed is how
@@ -195,13 +198,13 @@ impl Contact {
         difference <= (self.options.tolerance * jumps).max(ROUND_OFF * norm(&solution.border))
     }
 
-    fn unsettled(&self, problem: &Problem, iterate: &Iterate, scale: f64, before: Option<&Vec<Status>>) -> Unsettled {
+    fn unsettled(&self, problem: &Problem, iterate: &Iterate, before: Option<&Vec<Status>>) -> Unsettled {
         let Iterate { missed, branches, .. } = iterate;
         let interface = problem.joints.interface;
         let forces = (0..missed.len()).filter_map(|i| Some((missed[i].abs(), interface.point_of(i)?)));
         // what is not a number is the largest of all
         let largest = forces.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point);
-        let relative = ratio(norm(missed), scale);
+        let relative = ratio(norm(missed), self.scale(problem, iterate));
         if !relative.is_finite() {
             return Unsettled::Overflow(largest.map_or(Place::Matrix, Place::JointPoint));
         }
@@ -247,4 +250,105 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
 /// a / b, and 0 for 0 / 0.
 pub(super) fn ratio(a: f64, b: f64) -> f64 {
     if a == 0. { 0. } else { a / b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::case::Integration;
+    use crate::model::mesh::{Mesh, Shape};
+    use crate::model::split::{Joint, Pair};
+    use crate::physics::joint::Friction;
+    use crate::solve::interface::{Interface, JointState};
+    use crate::solve::unknowns::Unknowns;
+    use crate::sparse::{Orders, Symbolic};
+    use sprs::TriMat;
+
+    /// Stiffness of each node of ground and body [N/m], and forces on them [N].
+    const GROUND: f64 = 3.;
+    const BODY: f64 = 2.;
+    /// the two springs in a row
+    const BOTH: f64 = GROUND * BODY / (GROUND + BODY);
+    const TOLERANCE: Newton = Newton { tolerance: 1e-8, max_iterations: 30 };
+
+    fn law(normal_stiffness: f64, friction: f64) -> JointLaw {
+        let friction = Friction::Coulomb(friction);
+        JointLaw { normal_stiffness, tangential_stiffness: normal_stiffness / 2., friction, gap: 0. }
+    }
+
+    /// A joint of length 2 along the x axis, ground below and body above, each end between two nodes on springs; the bodies'
+    /// nodes carry `force`. Returns what its first end does.
+    fn settled(law: JointLaw, force: [f64; 2]) -> (Vector2<f64>, Response) {
+        let mesh = Mesh { points: vec![[0., 0.], [2., 0.], [0., 0.], [2., 0.]], ..Mesh::default() };
+        let pairs = [0, 1].map(|n| Pair { ground: n, body: 2 + n });
+        // anticlockwise round the body above
+        let joint = Joint { seam: 0, shape: Shape::Line2, pairs: vec![0, 1], ground_cell: 0, body_cell: 0 };
+        let unknowns = Unknowns::new(&mesh, &[[false; 2]; 4], &pairs, &Orders::default()).expect("a small graph");
+        let interface = Interface::new(&mesh, &pairs, &[joint], &[(law, Integration::Lobatto)], &unknowns.jumps);
+        let mut springs = TriMat::new((unknowns.count, unknowns.count));
+        let mut b = vec![0.; unknowns.count];
+        for i in 0..unknowns.count {
+            let on_body = unknowns.node_of(i) >= 2;
+            springs.add_triplet(i, i, if on_body { BODY } else { GROUND });
+            let axis = usize::from(unknowns.of(unknowns.node_of(i), 1) == Some(i));
+            b[i] = if on_body { force[axis] } else { 0. };
+        }
+        let springs = springs.to_csr();
+        let factor = Symbolic::new(&springs).factor(&springs).expect("springs are positive");
+        let border = Arc::new(Border::new(&factor, &unknowns));
+        let old = [JointState::default(); 2];
+        let joints = Joints { interface: &interface, old: &old, damping: None };
+        let (free, still) = (border.jumps(&border.displacements(&b)), [0.; 4]);
+        let problem = Problem { joints, b: &b, free: &free, last: &still, expected: &still };
+        let mut contact = Contact::new(border, Reference::Bodies, TOLERANCE);
+        let solution = contact.newton(&problem, &still).expect("no statuses run in a circle here");
+        let jump = interface.local(&interface.points[0], &solution.jumps);
+        let in_place = [0, 1].map(|axis| unknowns.jumps[0][axis].map_or(0., |place| solution.jumps[place]));
+        let ends = [0, 2].map(|node| unknowns.at_node(&solution.border, node));
+        assert!((0..2).all(|axis| (ends[0][axis] - ends[1][axis] - in_place[axis]).abs() < 1e-14), "jump of the ends");
+        (jump, solution.responses[0])
+    }
+
+    /// Pressed on with 1 N and pushed by .1 N: springs in a row, kappa (area 1 m2) beside both others' S, j_0 = -F / k_body.
+    #[test]
+    fn a_sticking_joint_is_a_spring_between_two() {
+        let (jump, response) = settled(law(5., 0.9), [0.1, -1.]);
+        assert_eq!(response.status, Status::Stick);
+        let free = -1. / BODY;
+        let exact = BOTH * free / (BOTH + 5.);
+        // round-off of a few operations on numbers about 1
+        assert!((jump[1] - exact).abs() < 1e-15 && (response.traction[1] - 5. * exact).abs() < 1e-15, "{jump} {exact}");
+        let sideways = BOTH * (0.1 / BODY) / (BOTH + 2.5);
+        assert!((jump[0].abs() - sideways).abs() < 1e-15, "{jump} {sideways}");
+    }
+
+    #[test]
+    fn a_slipping_joint_carries_friction_times_pressure() {
+        let (jump, response) = settled(law(5., 0.3), [1., -1.]);
+        assert!(response.status.is_slipping());
+        let pressure = 5. * BOTH * (1. / BODY) / (BOTH + 5.);
+        assert!((response.traction[1] + pressure).abs() < 1e-15);
+        assert!((response.traction[0].abs() - 0.3 * pressure).abs() < 1e-15);
+        // what the springs let it slip: S (j_0 - j) is the friction
+        assert!((jump[0].abs() - (1. / BODY - 0.3 * pressure / BOTH)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_open_joint_leaves_both_sides_alone() {
+        let (jump, response) = settled(law(5., 0.3), [1., 1.]);
+        assert_eq!(response.status, Status::Open);
+        assert_eq!(response.traction, Vector2::zeros());
+        assert!((jump[1] - 1. / BODY).abs() < 1e-15 && (jump[0].abs() - 1. / BODY).abs() < 1e-15);
+    }
+
+    /// On the way from the free jumps 12 digits cancel: only the second start, from near the solution, has them.
+    #[test]
+    fn a_joint_stiff_as_glue_has_the_traction_of_glue() {
+        let (_, response) = settled(law(1e12, 0.9), [0.1, -1.]);
+        assert_eq!(response.status, Status::Stick);
+        let glued = BOTH / BODY;
+        // S / kappa = 1e-12 softer than glue, and the round-off of S (j - j_0)
+        assert!((response.traction[1] + glued).abs() < 1e-11, "{}", response.traction[1] + glued);
+        assert!((response.traction[0].abs() - 0.1 * glued).abs() < 1e-11);
+    }
 }
