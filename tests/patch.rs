@@ -9,7 +9,6 @@ use coralpipe::results::sites::Sites;
 use coralpipe::results::stress::Recovery;
 use coralpipe::solve::assembly;
 use coralpipe::solve::condensed::Condensed;
-use coralpipe::solve::contact::Reference;
 use coralpipe::solve::interface::JointState;
 use coralpipe::solve::system::System;
 use nalgebra::{DMatrix, DVector, Matrix2, Rotation2, Vector2};
@@ -220,9 +219,7 @@ fn static_jumps(model: &Model, system: &System) -> (Vec<f64>, Vec<JointState>) {
         let f = assembly::load(model, &system.unknowns, load);
         sum.iter().zip(&f).map(|(s, f)| s + f * load.pulse.at(0.)).collect()
     });
-    let closed = system.closed_stiffness();
-    let reference = Reference::ClosedJoints;
-    let mut condensed = Condensed::new(system, &system.symbolic(), &closed, reference, model.newton).unwrap();
+    let mut condensed = Condensed::hanging(system, &system.symbolic(), model.newton).unwrap();
     let old = vec![JointState::default(); system.interface.points.len()];
     let still = vec![0.; system.interface.count];
     let (q, solution) = condensed.solve(system, load, &still, &old).unwrap();

@@ -3,7 +3,7 @@
 //! backward sweep.
 
 use super::border::Border;
-use super::contact::{Contact, Problem, Reference, Solution};
+use super::contact::{Contact, Problem, Solution};
 use super::interface::JointState;
 use super::joints::Joints;
 use super::system::System;
@@ -21,17 +21,33 @@ pub struct Condensed {
 }
 
 impl Condensed {
-    /// Factors `matrix`, which is A plus what `reference` says.
+    /// A is positive definite by itself.
     pub fn new(
         system: &System,
         symbolic: &Symbolic,
+        a: &CsMat<f64>,
+        options: Newton,
+    ) -> Result<Condensed, NotPositiveDefinite> {
+        Condensed::held(system, symbolic, a, 0., options)
+    }
+
+    /// A = K of bodies that may hang on joints alone. Closed joints are put in, whose forces Newton takes off again, as stiff
+    /// as the bodies at most: stiffer ones would cost digits.
+    pub fn hanging(system: &System, symbolic: &Symbolic, options: Newton) -> Result<Condensed, NotPositiveDefinite> {
+        let share = (system.border_stiffness() / system.closed_joints_stiffness()).min(1.);
+        Condensed::held(system, symbolic, &system.with_closed_joints(share), share, options)
+    }
+
+    fn held(
+        system: &System,
+        symbolic: &Symbolic,
         matrix: &CsMat<f64>,
-        reference: Reference,
+        share: f64,
         options: Newton,
     ) -> Result<Condensed, NotPositiveDefinite> {
         let factor: Arc<Factor> = symbolic.factor(matrix)?.into();
         let border: Arc<Border> = Border::new(&factor, &system.unknowns).into();
-        Ok(Condensed { factor, contact: Contact::new(border.clone(), reference, options), border })
+        Ok(Condensed { factor, contact: Contact::new(border.clone(), share, options), border })
     }
 
     /// For another system of the same matrix, whose joints have a history of their own.

@@ -19,15 +19,6 @@ use std::sync::Arc;
 /// Relative residual below which a status may still flip: round-off decides it, and it carries no force.
 const ROUND_OFF: f64 = 1e-13;
 
-/// What of the joints the border holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reference {
-    /// nothing, D_0 = 0: the bodies stand by themselves
-    Bodies,
-    /// every joint closed and sticking, because some bodies hang on joints alone
-    ClosedJoints,
-}
-
 /// One step's contact problem.
 pub struct Problem<'a> {
     pub joints: Joints<'a>,
@@ -54,7 +45,8 @@ pub struct Solution {
 
 pub struct Contact {
     pub(super) border: Arc<Border>,
-    reference: Reference,
+    /// D_0 as share of the closed joints' stiffness: none where inertia lets the bodies stand by themselves
+    held: f64,
     pub(super) options: Newton,
     inverse: Inverse,
 }
@@ -77,8 +69,8 @@ impl Iterate {
 }
 
 impl Contact {
-    pub fn new(border: Arc<Border>, reference: Reference, options: Newton) -> Contact {
-        Contact { border, reference, options, inverse: Inverse::default() }
+    pub fn new(border: Arc<Border>, held: f64, options: Newton) -> Contact {
+        Contact { border, held, options, inverse: Inverse::default() }
     }
 
     /// For other joints on the same bodies.
@@ -223,19 +215,13 @@ impl Contact {
 
     /// D_0 of a point [Pa/m].
     pub(super) fn held(&self, law: &JointLaw) -> Matrix2<f64> {
-        match self.reference {
-            Reference::Bodies => Matrix2::zeros(),
-            Reference::ClosedJoints => law.closed_stiffness(),
-        }
+        law.closed_stiffness() * self.held
     }
 
     /// Part of the closed stiffness that every tangent keeps. Without inertia a body that slips all round can turn without
     /// resistance. Only the way to the solution changes, not the solution: what is missed knows nothing of it.
     pub(super) fn stabilisation(&self) -> f64 {
-        match self.reference {
-            Reference::Bodies => 0.,
-            Reference::ClosedJoints => 1e-9,
-        }
+        if self.held > 0. { 1e-9 } else { 0. }
     }
 }
 
@@ -300,7 +286,7 @@ mod tests {
         let joints = Joints { interface: &interface, old: &old, damping: None };
         let (free, still) = (border.jumps(&border.displacements(&b)), [0.; 4]);
         let problem = Problem { joints, b: &b, free: &free, last: &still, expected: &still };
-        let mut contact = Contact::new(border, Reference::Bodies, TOLERANCE);
+        let mut contact = Contact::new(border, 0., TOLERANCE);
         let solution = contact.newton(&problem, &still).expect("no statuses run in a circle here");
         let jump = interface.local(&interface.points[0], &solution.jumps);
         let in_place = [0, 1].map(|axis| unknowns.jumps[0][axis].map_or(0., |place| solution.jumps[place]));

@@ -1,7 +1,6 @@
 //! The state at t = 0: equilibrium under gravity, what the case gives its groups, and the first acceleration.
 
 use super::condensed::Condensed;
-use super::contact::Reference;
 use super::interface::JointState;
 use super::system::{State, System};
 use super::unsettled::Unsettled;
@@ -24,8 +23,7 @@ pub fn under_gravity(
     if system.gravity.iter().all(|&f| f == 0.) {
         return Ok(Ok(rest));
     }
-    let closed = system.closed_stiffness();
-    let mut condensed = Condensed::new(system, symbolic, &closed, Reference::ClosedJoints, options)?;
+    let mut condensed = Condensed::hanging(system, symbolic, options)?;
     let mut in_parts = |parts: usize| {
         (1..=parts).try_fold(rest.clone(), |old, part| {
             let load = system.gravity.iter().map(|f| f * part as f64 / parts as f64).collect();

@@ -4,7 +4,7 @@
 //! time, joint forces too; alpha = 0 is Newmark's method. K* = a0 M + (1 + alpha)(a1 C + K).
 
 use super::condensed::Condensed;
-use super::contact::{Reference, Solution};
+use super::contact::Solution;
 use super::energy::Forms;
 use super::free_field::Column;
 use super::interface::JointState;
@@ -70,8 +70,7 @@ impl Stepper {
     ) -> Result<Stepper, NotPositiveDefinite> {
         match scheme {
             Scheme::Static => {
-                let closed = system.closed_stiffness();
-                let condensed = Condensed::new(system, symbolic, &closed, Reference::ClosedJoints, options)?;
+                let condensed = Condensed::hanging(system, symbolic, options)?;
                 Ok(Stepper { law: Law::Static { dt }, condensed, columns: vec![] })
             }
             Scheme::Dynamic(Integrator { newmark, hht }) => {
@@ -81,7 +80,7 @@ impl Stepper {
                     (constants.a0, &system.mass),
                     ((1. + hht) * constants.a1, &system.damping),
                 ]);
-                let condensed = Condensed::new(system, symbolic, &effective, Reference::Bodies, options)?;
+                let condensed = Condensed::new(system, symbolic, &effective, options)?;
                 let column = |c: &Column| Stepper::new(&c.system, &c.symbolic, scheme, dt, options);
                 let columns = system.columns.iter().map(column).collect::<Result<_, _>>()?;
                 Ok(Stepper { law: Law::Dynamic(Dynamic { constants, hht }), condensed, columns })

@@ -201,11 +201,11 @@ impl System {
         &q[..self.unknowns.count]
     }
 
-    /// K with every joint closed and sticking: the reference of natural frequencies.
-    pub fn closed_stiffness(&self) -> CsMat<f64> {
+    /// K with every joint closed and sticking, of a `share` of its stiffness.
+    pub fn with_closed_joints(&self, share: f64) -> CsMat<f64> {
         let mut closed = CsMat::clone(&self.stiffness);
         for point in &self.interface.points {
-            self.interface.tangent(point, &point.law.closed_stiffness(), |i, j, value| {
+            self.interface.tangent(point, &(point.law.closed_stiffness() * share), |i, j, value| {
                 for (row, sign_i) in self.unknowns.sides_of(i) {
                     for (column, sign_j) in self.unknowns.sides_of(j) {
                         let entry = closed.get_mut(row, column).expect("the pattern holds every joint element");
@@ -215,6 +215,25 @@ impl System {
             });
         }
         closed
+    }
+
+    /// Sum of the diagonal of K at the interfaces' nodes [N/m].
+    pub fn border_stiffness(&self) -> f64 {
+        let diagonal = self.stiffness.outer_iterator().enumerate().skip(self.unknowns.border);
+        diagonal.filter_map(|(i, row)| row.get(i).copied()).sum()
+    }
+
+    /// What closed joints add to it.
+    pub fn closed_joints_stiffness(&self) -> f64 {
+        let mut sum = 0.;
+        for point in &self.interface.points {
+            self.interface.tangent(point, &point.law.closed_stiffness(), |i, j, value| {
+                if i == j {
+                    sum += self.unknowns.sides_of(i).count() as f64 * value;
+                }
+            });
+        }
+        sum
     }
 }
 
