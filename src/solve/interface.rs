@@ -34,6 +34,8 @@ pub struct JointPoint {
     pub area: f64,
     /// where it lies [m]
     pub at: [f64; 2],
+    /// (place in the vector of jumps, column of R N) of every jump component that it sees
+    seen: Vec<(usize, Vector2<f64>)>,
 }
 
 impl JointPoint {
@@ -65,8 +67,6 @@ impl From<&Response> for JointState {
 pub struct Interface {
     pub count: usize,
     pub points: Vec<JointPoint>,
-    /// for each pair and axis its place in the vector of jumps; none where supports hold both nodes
-    places: Vec<[Option<usize>; 2]>,
 }
 
 impl Interface {
@@ -90,56 +90,50 @@ impl Interface {
             })
             .collect();
         let count = places.iter().flatten().flatten().count();
-        Interface { count, points: with_common_normals(points), places: places.to_vec() }
+        let seeing = |point: JointPoint| JointPoint { seen: seen(&point, places), ..point };
+        Interface { count, points: with_common_normals(points).into_iter().map(seeing).collect() }
     }
 
     /// R N j: (tangential, normal) jump at a point [as j].
     pub fn local(&self, point: &JointPoint, j: &[f64]) -> Vector2<f64> {
-        let component = |pair: usize, axis: usize| self.places[pair][axis].map_or(0., |i| j[i]);
-        let global: Vector2<f64> =
-            point.share.iter().map(|&(p, n)| n * Vector2::new(component(p, 0), component(p, 1))).sum();
-        point.rotation() * global
+        point.seen.iter().map(|&(place, column)| column * j[place]).sum()
     }
 
     /// r(j) [N] of the points' tractions.
     pub fn forces(&self, tractions: impl Iterator<Item = Vector2<f64>>) -> Vec<f64> {
         let mut r = vec![0.; self.count];
         for (point, traction) in self.points.iter().zip(tractions) {
-            let force = point.rotation().transpose() * traction * point.area;
-            for (i, axis, n) in self.entries(point) {
-                r[i] += n * force[axis];
-            }
+            point.seen.iter().for_each(|(place, column)| r[*place] += column.dot(&traction) * point.area);
         }
         r
     }
 
     /// Calls `add(row, column, value)` for a point's part of dr/dj = sum area N' R' D R N [N/m].
     pub fn tangent(&self, point: &JointPoint, d: &Matrix2<f64>, mut add: impl FnMut(usize, usize, f64)) {
-        let k = point.rotation().transpose() * d * point.rotation() * point.area;
-        for (i, axis_i, n_i) in self.entries(point) {
-            for (j, axis_j, n_j) in self.entries(point) {
-                add(i, j, n_i * n_j * k[(axis_i, axis_j)]);
-            }
+        for &(j, of_j) in &point.seen {
+            let traction = d * of_j * point.area;
+            point.seen.iter().for_each(|(i, of_i)| add(*i, j, of_i.dot(&traction)));
         }
     }
 
     /// Where in the vector of jumps a point finds its own.
     pub fn places<'a>(&'a self, point: &'a JointPoint) -> impl Iterator<Item = usize> + 'a {
-        self.entries(point).map(|(i, ..)| i)
+        point.seen.iter().map(|&(place, _)| place)
     }
 
     /// A point that sees jump component `place`, if any does.
     pub fn point_of(&self, place: usize) -> Option<usize> {
         self.points.iter().position(|point| self.places(point).any(|i| i == place))
     }
+}
 
-    /// (place in j, axis, N) of every jump component a point sees.
-    fn entries<'a>(&'a self, point: &'a JointPoint) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
-        point
-            .share
-            .iter()
-            .flat_map(move |&(pair, n)| (0..2).filter_map(move |axis| self.places[pair][axis].map(|i| (i, axis, n))))
-    }
+/// What a point sees of the jumps; `places` of each pair and axis.
+fn seen(point: &JointPoint, places: &[[Option<usize>; 2]]) -> Vec<(usize, Vector2<f64>)> {
+    let rotation = point.rotation();
+    let of_pair = |&(pair, n): &(usize, f64)| {
+        (0..2).filter_map(move |axis| Some((places[pair][axis]?, rotation.column(axis) * n)))
+    };
+    point.share.iter().flat_map(of_pair).collect()
 }
 
 /// Where two elements of a curve meet in a node under less than this, the curve is taken as smooth there: cos 30 degrees.
@@ -182,5 +176,6 @@ fn joint_point(number: usize, joint: &Joint, law: JointLaw, at: &[[f64; 2]], r: 
         normal: [tangent[1] / det, -tangent[0] / det],
         area: det * weight,
         at: [0, 1].map(|i| sum(&|a| functions[a].0 * at[a][i])),
+        seen: vec![],
     }
 }
