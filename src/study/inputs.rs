@@ -1,35 +1,23 @@
 //! What a run is made from, for its summary, and what the results that it replaces were made from.
 
-use super::content::{Content, sha256};
+use super::content::sha256;
 use super::mesh::Meshed;
 use super::run::Request;
-use crate::Result;
 use crate::model::case::Case;
-use crate::model::msh;
 use crate::results::folder::summary;
 use crate::results::summary::Inputs;
 use std::path::Path;
 
 /// The hash of the mesh is that of the bytes that were parsed: the file may be another one by now.
 pub fn made_from(case: &Case, meshed: &Meshed, request: &Request) -> Inputs {
-    with_mesh(case, &meshed.path, meshed.sha256.clone(), request)
-}
-
-/// Likewise where the mesh is not at hand any more. Error: it cannot be read again.
-pub fn inputs(case: &Case, mesh: &Path, request: &Request) -> Result<Inputs> {
-    let content = Content::read(mesh).map_err(|e| msh::not_read(mesh, &e))?;
-    Ok(with_mesh(case, mesh, content.sha256, request))
-}
-
-fn with_mesh(case: &Case, mesh: &Path, mesh_sha256: String, request: &Request) -> Inputs {
     Inputs {
         case: case.path().display().to_string(),
         case_sha256: sha256(case.json().to_string().as_bytes()),
         effective_case: case.json().clone(),
         set: request.sets.clone(),
         geo: request.geo.clone(),
-        mesh: mesh.display().to_string(),
-        mesh_sha256,
+        mesh: meshed.path.display().to_string(),
+        mesh_sha256: meshed.sha256.clone(),
         bonded: request.bonded,
         coralpipe: env!("CARGO_PKG_VERSION"),
     }

@@ -5,7 +5,7 @@ use crate::model::case::Case;
 use crate::model::hold::refuse_loose;
 use crate::model::resolve::Model;
 use crate::results::summary::Inputs;
-use crate::study::inputs::inputs;
+use crate::study::inputs::made_from;
 use crate::study::mesh::{self, Meshed};
 use crate::study::run::{self, Request};
 use crate::study::screen::Screen;
@@ -69,7 +69,7 @@ impl Job {
             bonded: plan.bonded,
             quiet: true,
         };
-        let inputs = inputs(&case, &meshed.path, &request)?;
+        let inputs = made_from(&case, &meshed, &request);
         Ok(Job { number, name: variant.name.clone(), case, meshed, inputs, folder })
     }
 
