@@ -285,6 +285,13 @@ fn compare(integration: &str, alpha: f64, delta: f64) -> (f64, [usize; 2]) {
             (motion, counts) = plain.step(&motion, steps as f64 * DT);
             most = [0, 1].map(|i| most[i].max(counts[i]));
         }
+        for x in [&state.q, &state.v, &state.a] {
+            let differences = system.unknowns.differences(x);
+            let apart = differences.iter().zip(system.jumps(x)).map(|(d, j)| (d - j).abs());
+            // a jump has all its digits, the difference of two displacements those that are left of theirs
+            let apart = apart.fold(0., f64::max);
+            assert!(apart <= 1e-12 * support::peak(x), "jumps: {:.1e}", apart / support::peak(x));
+        }
         let condensed: Vector = system.unknowns.at_nodes(&state.q).concat();
         difference = condensed.iter().zip(&motion.u).map(|(a, b)| (a - b).abs()).fold(difference, f64::max);
         largest = largest.max(support::peak(&motion.u));

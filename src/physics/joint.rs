@@ -111,6 +111,11 @@ impl JointLaw {
         Matrix2::new(self.tangential_stiffness, 0., 0., self.normal_stiffness)
     }
 
+    /// The same of a joint whose normal stiffness is `stiffest` [Pa/m] at most, the tangential one in proportion.
+    pub fn closed_no_stiffer_than(&self, stiffest: f64) -> Matrix2<f64> {
+        self.closed_stiffness() * (stiffest / self.normal_stiffness).min(1.)
+    }
+
     /// Energy stored per area by a jump with plastic slip: kappa_n <-g_n>^2 / 2 + kappa_s (g_s - slip)^2 / 2 [J/m^2].
     pub fn stored_energy(&self, jump: Vector2<f64>, slip: f64) -> f64 {
         let closing = (jump[1] + self.gap).min(0.);

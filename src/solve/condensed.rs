@@ -2,7 +2,7 @@
 //! with the nodes of the interfaces last. Solving takes one forward sweep up to them, Newton on the jumps between them, one
 //! backward sweep.
 
-use super::border::Border;
+use super::condensate::Condensate;
 use super::contact::{Contact, Problem, Solution};
 use super::interface::JointState;
 use super::joints::Joints;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// A x + r(j) = b with x the unknowns, j the jumps between some of them, r the joint forces.
 pub struct Condensed {
     factor: Arc<Factor>,
-    border: Arc<Border>,
+    condensate: Arc<Condensate>,
     contact: Contact,
 }
 
@@ -28,31 +28,36 @@ impl Condensed {
         a: &CsMat<f64>,
         options: Newton,
     ) -> Result<Condensed, NotPositiveDefinite> {
-        Condensed::held(system, symbolic, a, 0., options)
+        Condensed::with_reference(system, symbolic, a, 0., options)
     }
 
-    /// A = K of bodies that may hang on joints alone. Closed joints are put in, whose forces Newton takes off again, as stiff
-    /// as the bodies at most: stiffer ones would cost digits.
+    /// A = K of bodies that may hang on joints alone. Closed joints are put in, whose forces Newton takes off again, none
+    /// stiffer than the bodies are on average: stiffer ones would cost digits.
     pub fn hanging(system: &System, symbolic: &Symbolic, options: Newton) -> Result<Condensed, NotPositiveDefinite> {
-        let share = (system.border_stiffness() / system.closed_joints_stiffness()).min(1.);
-        Condensed::held(system, symbolic, &system.with_closed_joints(share), share, options)
+        let stiffest = system.stiffness_at_joints();
+        Condensed::with_reference(system, symbolic, &system.with_closed_joints(stiffest), stiffest, options)
     }
 
-    fn held(
+    /// `matrix`: A with joints in it, closed and at most as stiff as `stiffest` [Pa/m].
+    fn with_reference(
         system: &System,
         symbolic: &Symbolic,
         matrix: &CsMat<f64>,
-        share: f64,
+        stiffest: f64,
         options: Newton,
     ) -> Result<Condensed, NotPositiveDefinite> {
         let factor: Arc<Factor> = symbolic.factor(matrix)?.into();
-        let border: Arc<Border> = Border::new(&factor, &system.unknowns).into();
-        Ok(Condensed { factor, contact: Contact::new(border.clone(), share, options), border })
+        let condensate: Arc<Condensate> = Condensate::new(&factor, &system.unknowns, stiffest > 0.).into();
+        Ok(Condensed { factor, contact: Contact::new(condensate.clone(), stiffest, options), condensate })
     }
 
     /// For another system of the same matrix, whose joints have a history of their own.
     pub fn sharing_factor(&self) -> Condensed {
-        Condensed { factor: self.factor.clone(), border: self.border.clone(), contact: self.contact.sharing_border() }
+        Condensed {
+            factor: self.factor.clone(),
+            condensate: self.condensate.clone(),
+            contact: self.contact.sharing_condensate(),
+        }
     }
 
     /// A x + r(j) = b; x, the jumps behind it, and how the joints settled. They move on from the jumps `last` and the
@@ -82,7 +87,7 @@ impl Condensed {
     /// Between the sweeps: from the condensed right-hand side at the border to the displacements there that satisfy the
     /// joints, which move on from the jumps `last` towards the `expected` ones.
     pub fn settle(&mut self, b: &[f64], joints: Joints, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
-        let free = self.border.jumps(&self.border.displacements(b));
+        let free = self.condensate.jumps(&self.condensate.displacements(b));
         self.contact.solve(&Problem { joints, b, free: &free, last, expected })
     }
 }

@@ -4,7 +4,7 @@
 //! r is piecewise linear: a step whose points stay on their branches is solved at once, and only the points that changed
 //! their status cost more than that.
 
-use super::border::Border;
+use super::condensate::Condensate;
 use super::interface::JointPoint;
 use super::inverse::Inverse;
 use super::joints::{Branches, Joints};
@@ -44,9 +44,9 @@ pub struct Solution {
 }
 
 pub struct Contact {
-    pub(super) border: Arc<Border>,
-    /// D_0 as share of the closed joints' stiffness: none where inertia lets the bodies stand by themselves
-    held: f64,
+    pub(super) condensate: Arc<Condensate>,
+    /// no joint of D_0 is stiffer [Pa/m]; 0 where inertia lets the bodies stand by themselves
+    stiffest: f64,
     pub(super) options: Newton,
     inverse: Inverse,
 }
@@ -68,24 +68,37 @@ impl Iterate {
     }
 }
 
+/// What is left to try where Newton runs in a circle or stands still.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Retry {
+    /// From what these jumps really miss: stiff joints cost digits on the way from the free jumps.
+    FromHere,
+    /// With a fresh inverse, which corrections may have worn.
+    Fresh,
+    Nothing,
+}
+
 impl Contact {
-    pub fn new(border: Arc<Border>, held: f64, options: Newton) -> Contact {
-        Contact { border, held, options, inverse: Inverse::default() }
+    pub fn new(condensate: Arc<Condensate>, stiffest: f64, options: Newton) -> Contact {
+        Contact { condensate, stiffest, options, inverse: Inverse::default() }
     }
 
     /// For other joints on the same bodies.
-    pub fn sharing_border(&self) -> Contact {
-        Contact { border: self.border.clone(), inverse: Inverse::default(), ..*self }
+    pub fn sharing_condensate(&self) -> Contact {
+        Contact { condensate: self.condensate.clone(), inverse: Inverse::default(), ..*self }
     }
 
     /// Newton with the statuses inside the loop; where they run in a circle, the fixed point on Tresca's bound.
     pub fn solve(&mut self, problem: &Problem) -> Result<Solution, Unsettled> {
         self.newton(problem, problem.expected).or_else(|unsettled| {
-            let FixedPoint { jumps, iterations, displacement_test } = self.fixed_point(problem).ok_or(unsettled)?;
+            let Some(FixedPoint { jumps, iterations, displacement_test }) = self.fixed_point(problem) else {
+                return Err(unsettled);
+            };
             // From so near Newton ends at round-off, unless it circles again.
-            let polished = self.newton(problem, &jumps);
-            let near = |_| self.solution(problem, &problem.joints.branches(&jumps), 0, displacement_test);
-            let nearest = polished.unwrap_or_else(near);
+            let nearest = self.newton(problem, &jumps).or_else(|_| {
+                let near = self.solution(problem, &problem.joints.branches(&jumps), 0, displacement_test);
+                if self.misfit(problem, &near) <= self.options.tolerance { Ok(near) } else { Err(unsettled) }
+            })?;
             Ok(Solution { iterations: iterations + nearest.iterations, displacement_test, ..nearest })
         })
     }
@@ -94,33 +107,37 @@ impl Contact {
     fn newton(&mut self, problem: &Problem, expected: &[f64]) -> Result<Solution, Unsettled> {
         let mut iterate = self.start(problem, problem.free, problem.joints.branches(expected));
         let mut seen: Vec<Vec<Status>> = Vec::new();
-        let (mut correction, mut again) = (0., false);
+        let (mut correction, mut missed_before) = (0., f64::INFINITY);
+        let mut retry = Retry::FromHere;
         for iterations in 0..=self.options.max_iterations {
-            let statuses = iterate.branches.statuses();
+            let (statuses, missed) = (iterate.branches.statuses(), norm(&iterate.missed));
             let settled = seen.last() == Some(&statuses);
             let tolerance = if settled { self.options.tolerance } else { ROUND_OFF };
-            if iterate.is_answered() && norm(&iterate.missed) <= tolerance * self.scale(problem, &iterate) {
+            if iterate.is_answered()
+                && missed <= tolerance * self.scale(problem, &iterate.tractions, missed / tolerance)
+            {
                 let displacement_test = ratio(correction, distance(&iterate.jumps, problem.last));
                 let solution = self.solution(problem, &iterate.branches, iterations, displacement_test);
-                if self.fits(problem, &solution) {
+                if self.misfit(problem, &solution) <= self.options.tolerance {
                     return Ok(solution);
                 }
             }
-            let circles = !settled && seen.contains(&statuses);
-            if (circles || settled) && (!again || self.inverse.is_corrected()) {
-                // Corrections may have worn the inverse, and stiff joints cost digits on the way from the free jumps: once
-                // more with a fresh one, from what these jumps really miss.
-                if self.inverse.is_corrected() {
-                    self.inverse.forget();
-                }
+            let stands_still = settled && missed >= missed_before / 2.;
+            if stands_still || !settled && seen.contains(&statuses) {
+                retry = match retry {
+                    Retry::FromHere => Retry::Fresh,
+                    Retry::Fresh if self.inverse.is_corrected() => {
+                        self.inverse.forget();
+                        Retry::Nothing
+                    }
+                    _ => break,
+                };
                 iterate = self.start(problem, &iterate.jumps, iterate.branches);
                 seen.clear();
-                again = true;
-            } else if circles {
-                break;
             }
+            missed_before = missed;
             let tangents = self.tangents(&problem.joints, &iterate.branches.responses);
-            let step = self.inverse.solve(&self.border.schur, problem.joints.interface, &tangents, &iterate.missed);
+            let step = self.inverse.solve(&self.condensate.schur, problem.joints.interface, &tangents, &iterate.missed);
             let next = self.after(&problem.joints, &iterate, &tangents, &step);
             correction = distance(&next.jumps, if iterations == 0 { problem.last } else { &iterate.jumps });
             iterate = next;
@@ -134,20 +151,20 @@ impl Contact {
         let Problem { joints, free, .. } = problem;
         let tractions = joints.on_lines(&branches, jumps);
         let points = joints.interface.points.iter().zip(&tractions);
-        let beyond = points.map(|(p, traction)| traction - self.held(&p.law) * joints.interface.local(p, jumps));
+        let beyond = points.map(|(p, traction)| traction - self.reference(&p.law) * joints.interface.local(p, jumps));
         let mut missed = joints.interface.forces(beyond);
         if jumps != *free {
             let from_free: Vec<f64> = jumps.iter().zip(*free).map(|(j, free)| j - free).collect();
-            add(&mut missed, 1., &self.border.forces(&from_free));
+            add(&mut missed, 1., &self.condensate.forces(&from_free));
         }
         Iterate { jumps: jumps.to_vec(), missed, branches, tractions }
     }
 
-    /// What forces are measured against [N]: the joints' own, and about those that would close the free jumps.
-    fn scale(&self, Problem { joints, free, .. }: &Problem, iterate: &Iterate) -> f64 {
-        let closing = free.iter().zip(self.border.schur.diagonal().column_vector().iter()).map(|(j, s)| s * j);
-        let forces = joints.interface.forces(iterate.tractions.iter().copied());
-        norm(&forces).max(norm(&closing.collect::<Vec<_>>()))
+    /// What forces are measured against [N]: the joints' own or, where these are not `enough`, those that would close the
+    /// free jumps, if they are larger.
+    fn scale(&self, Problem { joints, free, .. }: &Problem, tractions: &[Vector2<f64>], enough: f64) -> f64 {
+        let own = norm(&joints.interface.forces(tractions.iter().copied()));
+        if own >= enough { own } else { own.max(norm(&self.condensate.forces(free))) }
     }
 
     /// After a step of Newton's, which goes where the lines that it was solved with miss nothing: so what is missed is how
@@ -160,7 +177,7 @@ impl Contact {
             if self.stabilisation() == 0. && old.status == new.status && old.tangent == new.tangent {
                 return Vector2::zeros();
             }
-            let slope = tangents[i] + self.held(&point.law);
+            let slope = tangents[i] + self.reference(&point.law);
             new.traction - before.tractions[i] + slope * joints.interface.local(point, step)
         };
         let missed = joints.interface.forces(joints.interface.points.iter().enumerate().map(off_its_line));
@@ -177,29 +194,37 @@ impl Contact {
     ) -> Solution {
         let interface = joints.interface;
         let points = interface.points.iter().zip(responses);
-        let beyond = points.map(|(p, r)| r.traction - self.held(&p.law) * interface.local(p, at));
-        let border = self.border.displacements(&self.border.pulled(b, &interface.forces(beyond)));
+        let beyond = points.map(|(p, r)| r.traction - self.reference(&p.law) * interface.local(p, at));
+        let border = self.condensate.displacements(&self.condensate.pulled(b, &interface.forces(beyond)));
         Solution { border, jumps: at.clone(), responses: responses.clone(), iterations, displacement_test }
     }
 
-    /// Whether the jumps are those of the displacements that the joints' forces make, to the tolerance or to what
-    /// round-off leaves of their digits.
-    fn fits(&self, problem: &Problem, solution: &Solution) -> bool {
-        let difference = distance(&self.border.jumps(&solution.border), &solution.jumps);
-        let jumps = norm(&solution.jumps).max(norm(problem.free));
-        difference <= (self.options.tolerance * jumps).max(ROUND_OFF * norm(&solution.border))
+    /// How far the jumps are from those of the displacements that the joints' forces make, as the force that would bring
+    /// them there over the largest force; 0 where round-off leaves them no more digits.
+    fn misfit(&self, problem: &Problem, solution: &Solution) -> f64 {
+        let made = self.condensate.jumps(&solution.border);
+        let apart: Vec<f64> = made.iter().zip(&solution.jumps).map(|(made, jump)| made - jump).collect();
+        if norm(&apart) <= ROUND_OFF * norm(&solution.border) {
+            return 0.;
+        }
+        let tractions: Vec<Vector2<f64>> = solution.responses.iter().map(|r| r.traction).collect();
+        let at_most = self.condensate.norm * norm(&apart);
+        let scale = self.scale(problem, &tractions, at_most / self.options.tolerance);
+        let least = at_most / scale;
+        if least <= self.options.tolerance { least } else { norm(&self.condensate.forces(&apart)) / scale }
     }
 
     fn unsettled(&self, problem: &Problem, iterate: &Iterate, before: Option<&Vec<Status>>) -> Unsettled {
-        let Iterate { missed, branches, .. } = iterate;
+        let Iterate { missed, branches, tractions, .. } = iterate;
         let interface = problem.joints.interface;
         let forces = (0..missed.len()).filter_map(|i| Some((missed[i].abs(), interface.point_of(i)?)));
         // what is not a number is the largest of all
         let largest = forces.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point);
-        let relative = ratio(norm(missed), self.scale(problem, iterate));
-        if !relative.is_finite() {
+        let left = ratio(norm(missed), self.scale(problem, tractions, f64::INFINITY));
+        if !left.is_finite() {
             return Unsettled::Overflow(largest.map_or(Place::Matrix, Place::JointPoint));
         }
+        let relative = left.max(self.misfit(problem, &self.solution(problem, branches, 0, 0.)));
         let last = branches.statuses();
         match before.map(|before| differing(before, &last)) {
             Some(changing) if !changing.is_empty() => Unsettled::Statuses { changing, last },
@@ -210,18 +235,20 @@ impl Contact {
     /// D - D_0 of every point for Newton's matrix [Pa/m].
     fn tangents(&self, joints: &Joints, responses: &[Response]) -> Vec<Matrix2<f64>> {
         let points = responses.iter().zip(&joints.interface.points);
-        points.map(|(r, p)| r.tangent + p.law.closed_stiffness() * self.stabilisation() - self.held(&p.law)).collect()
+        points
+            .map(|(r, p)| r.tangent + p.law.closed_stiffness() * self.stabilisation() - self.reference(&p.law))
+            .collect()
     }
 
     /// D_0 of a point [Pa/m].
-    pub(super) fn held(&self, law: &JointLaw) -> Matrix2<f64> {
-        law.closed_stiffness() * self.held
+    pub(super) fn reference(&self, law: &JointLaw) -> Matrix2<f64> {
+        law.closed_no_stiffer_than(self.stiffest)
     }
 
     /// Part of the closed stiffness that every tangent keeps. Without inertia a body that slips all round can turn without
     /// resistance. Only the way to the solution changes, not the solution: what is missed knows nothing of it.
     pub(super) fn stabilisation(&self) -> f64 {
-        if self.held > 0. { 1e-9 } else { 0. }
+        if self.stiffest > 0. { 1e-9 } else { 0. }
     }
 }
 
@@ -281,12 +308,12 @@ mod tests {
         }
         let springs = springs.to_csr();
         let factor = Symbolic::new(&springs).factor(&springs).expect("springs are positive");
-        let border = Arc::new(Border::new(&factor, &unknowns));
+        let condensate = Arc::new(Condensate::new(&factor, &unknowns, false));
         let old = [JointState::default(); 2];
         let joints = Joints { interface: &interface, old: &old, damping: None };
-        let (free, still) = (border.jumps(&border.displacements(&b)), [0.; 4]);
+        let (free, still) = (condensate.jumps(&condensate.displacements(&b)), [0.; 4]);
         let problem = Problem { joints, b: &b, free: &free, last: &still, expected: &still };
-        let mut contact = Contact::new(border, 0., TOLERANCE);
+        let mut contact = Contact::new(condensate, 0., TOLERANCE);
         let solution = contact.newton(&problem, &still).expect("no statuses run in a circle here");
         let jump = interface.local(&interface.points[0], &solution.jumps);
         let in_place = [0, 1].map(|axis| unknowns.jumps[0][axis].map_or(0., |place| solution.jumps[place]));

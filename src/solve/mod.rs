@@ -1,7 +1,7 @@
 //! The equations: assembled, condensed to the nodes of the interfaces, marched through time.
 
 pub mod assembly;
-pub mod border;
+pub mod condensate;
 pub mod condensed;
 pub mod contact;
 pub mod energy;

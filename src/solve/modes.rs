@@ -20,7 +20,7 @@ pub struct NaturalMode {
 /// None is skipped: those below sigma, just below the last one, are counted by the negative pivots of K - sigma M
 /// (Sylvester). Where pivots vanish sigma lies up to 10 % below the last, and the count says nothing of those between.
 pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Result<Vec<NaturalMode>> {
-    let stiffness = system.with_closed_joints(1.);
+    let stiffness = system.with_closed_joints(f64::INFINITY);
     let shift = rigid_shift(&stiffness, &system.mass);
     let factor = symbolic
         .factor(&combine(&[(1., &stiffness), (shift, &system.mass)]))
@@ -37,11 +37,8 @@ pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Resu
     }
     // Below that an eigenvalue is the round-off of a rigid motion's zero.
     let frequency = |lambda: f64| if lambda < 1e-3 * shift { 0. } else { lambda.sqrt() / (2. * PI) };
-    let with_jumps = |mut shape: Vec<f64>| {
-        shape.extend(system.unknowns.differences(&shape));
-        shape
-    };
-    Ok(modes.into_iter().map(|m| NaturalMode { frequency: frequency(m.lambda), shape: with_jumps(m.shape) }).collect())
+    let shape = |of_unknowns: &[f64]| system.unknowns.vector(|i| of_unknowns[i]);
+    Ok(modes.into_iter().map(|m| NaturalMode { frequency: frequency(m.lambda), shape: shape(&m.shape) }).collect())
 }
 
 /// How many eigenvalues lie below sigma, of which `lambdas` are some.

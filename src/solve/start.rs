@@ -44,7 +44,7 @@ pub fn under_gravity(
 /// The static state of the `held` system in the unknowns of the one that is let go, and the reactions
 /// K u + r(j) - gravity [N] of what only held the former: they go on as forces, about which the ground then moves.
 pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f64>) {
-    let q = system.unknowns.from_nodes(&held.unknowns.at_nodes(&state.q));
+    let q = system.unknowns.from_others(&held.unknowns, &state.q);
     let mut unbalanced = multiply(&system.stiffness, system.displacements(&q));
     add(&mut unbalanced, -1., &system.gravity);
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
@@ -97,6 +97,5 @@ pub fn with_acceleration(
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
     system.unknowns.add_at_jumps(&mut a, -1., &joint_forces);
     symbolic.solve_once(&system.mass, &mut a)?;
-    a.extend(system.unknowns.differences(&a));
-    Ok(State { a, free_field, ..state })
+    Ok(State { a: system.unknowns.vector(|i| a[i]), free_field, ..state })
 }

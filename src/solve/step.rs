@@ -11,6 +11,7 @@ use super::interface::JointState;
 use super::joints::{JointDamping, Joints};
 use super::newmark::Constants;
 use super::system::{Products, State, System, combine};
+use super::unknowns::Unknowns;
 use super::unsettled::Unsettled;
 use crate::model::case::{Integrator, Newton};
 use crate::sparse::vector::{add, add_at};
@@ -114,7 +115,14 @@ impl Stepper {
     }
 
     /// After the backward sweep.
-    fn complete(&self, q: Vec<f64>, free_field: Vec<State>, joints: Vec<JointState>, old: &State) -> State {
+    fn complete(
+        &self,
+        unknowns: &Unknowns,
+        q: Vec<f64>,
+        free_field: Vec<State>,
+        joints: Vec<JointState>,
+        old: &State,
+    ) -> State {
         match self.law {
             Law::Static { dt } => {
                 let zero = vec![0.; q.len()];
@@ -122,8 +130,9 @@ impl Stepper {
             }
             Law::Dynamic(Dynamic { constants, .. }) => {
                 let before = |i: usize| [old.q[i], old.v[i], old.a[i]];
-                let a: Vec<f64> = (0..q.len()).map(|i| constants.acceleration(q[i], before(i))).collect();
-                let v = (0..q.len()).map(|i| constants.velocity(a[i], before(i))).collect();
+                // Jumps that went on by themselves would drift off by the round-off of every step.
+                let a = unknowns.vector(|i| constants.acceleration(q[i], before(i)));
+                let v = unknowns.vector(|i| constants.velocity(a[i], before(i)));
                 State { time: old.time + constants.dt, q, v, a, joints, free_field }
             }
         }
@@ -225,7 +234,7 @@ fn step_lanes<const K: usize>(
             let Solution { jumps, responses, iterations, displacement_test, .. } = settled?;
             let q = x.iter().map(|x| x[k]).chain(jumps).collect();
             let joints = responses.iter().map(JointState::from).collect();
-            let state = steppers[k].complete(q, free_field?, joints, old[k]);
+            let state = steppers[k].complete(&systems[k].unknowns, q, free_field?, joints, old[k]);
             Ok(Step { state, iterations, displacement_test, forms: Forms::default() })
         })
         .collect();

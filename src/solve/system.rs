@@ -9,6 +9,7 @@ use crate::model::moving_front::MovingFront;
 use crate::model::resolve::Model;
 use crate::physics::pulse::Pulse;
 use crate::sparse::{Orders, Symbolic, Upper, multiply};
+use nalgebra::Matrix2;
 use serde::Serialize;
 use sprs::{CsMat, TriMat};
 use std::sync::Arc;
@@ -201,11 +202,11 @@ impl System {
         &q[..self.unknowns.count]
     }
 
-    /// K with every joint closed and sticking, of a `share` of its stiffness.
-    pub fn with_closed_joints(&self, share: f64) -> CsMat<f64> {
+    /// K with every joint closed and sticking, and at most as stiff as `stiffest` [Pa/m].
+    pub fn with_closed_joints(&self, stiffest: f64) -> CsMat<f64> {
         let mut closed = CsMat::clone(&self.stiffness);
         for point in &self.interface.points {
-            self.interface.tangent(point, &(point.law.closed_stiffness() * share), |i, j, value| {
+            self.interface.tangent(point, &point.law.closed_no_stiffer_than(stiffest), |i, j, value| {
                 for (row, sign_i) in self.unknowns.sides_of(i) {
                     for (column, sign_j) in self.unknowns.sides_of(j) {
                         let entry = closed.get_mut(row, column).expect("the pattern holds every joint element");
@@ -217,23 +218,19 @@ impl System {
         closed
     }
 
-    /// Sum of the diagonal of K at the interfaces' nodes [N/m].
-    pub fn border_stiffness(&self) -> f64 {
-        let diagonal = self.stiffness.outer_iterator().enumerate().skip(self.unknowns.border);
-        diagonal.filter_map(|(i, row)| row.get(i).copied()).sum()
-    }
-
-    /// What closed joints add to it.
-    pub fn closed_joints_stiffness(&self) -> f64 {
-        let mut sum = 0.;
+    /// Stiffness of springs between the bodies that is as large on the diagonal of K as K's own, on average [Pa/m].
+    pub fn stiffness_at_joints(&self) -> f64 {
+        let rows = self.stiffness.outer_iterator().enumerate().skip(self.unknowns.border);
+        let of_bodies: f64 = rows.filter_map(|(i, row)| row.get(i).copied()).sum();
+        let mut of_unit_springs = 0.;
         for point in &self.interface.points {
-            self.interface.tangent(point, &point.law.closed_stiffness(), |i, j, value| {
+            self.interface.tangent(point, &Matrix2::identity(), |i, j, value| {
                 if i == j {
-                    sum += self.unknowns.sides_of(i).count() as f64 * value;
+                    of_unit_springs += self.unknowns.sides_of(i).count() as f64 * value;
                 }
             });
         }
-        sum
+        of_bodies / of_unit_springs
     }
 }
 

@@ -12,7 +12,7 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 const SWEEPS: f64 = 1e-9;
 
 /// S j + r(j) = b, what is left of the equations when all but the jumps is eliminated.
-struct Condensate<'a> {
+struct JumpEquations<'a> {
     joints: &'a Joints<'a>,
     schur: Mat<f64>,
     b: Vec<f64>,
@@ -32,14 +32,14 @@ pub struct FixedPoint {
 impl Contact {
     /// Outer loop on the bound f p; the inner problem with a fixed bound is convex and always solved.
     pub(super) fn fixed_point(&self, problem: &Problem) -> Option<FixedPoint> {
-        let condensate = self.condensate(problem);
+        let equations = self.equations(problem);
         let mut jumps = problem.last.to_vec();
         let mut bounds = problem.joints.bounds(&jumps);
         for iterations in 1..=10 * self.options.max_iterations {
-            let next = self.minimise(&condensate, &jumps, &bounds)?;
+            let next = self.minimise(&equations, &jumps, &bounds)?;
             let correction = distance(&next, &jumps);
             jumps = next;
-            if condensate.residual(&jumps, None).relative() <= self.options.tolerance {
+            if equations.residual(&jumps, None).relative() <= self.options.tolerance {
                 let displacement_test = ratio(correction, distance(&jumps, problem.last));
                 return Some(FixedPoint { jumps, iterations, displacement_test });
             }
@@ -48,30 +48,30 @@ impl Contact {
         None
     }
 
-    fn condensate<'a>(&self, problem: &'a Problem) -> Condensate<'a> {
-        let mut schur = self.border.schur.clone();
-        let b = self.border.forces(problem.free);
+    fn equations<'a>(&self, problem: &'a Problem) -> JumpEquations<'a> {
+        let mut schur = self.condensate.schur.clone();
+        let b = self.condensate.forces(problem.free);
         let interface = problem.joints.interface;
         for point in &interface.points {
-            interface.tangent(point, &self.held(&point.law), |i, j, value| schur[(i, j)] -= value);
+            interface.tangent(point, &self.reference(&point.law), |i, j, value| schur[(i, j)] -= value);
         }
-        Condensate { joints: &problem.joints, schur, b, stabilisation: self.stabilisation() }
+        JumpEquations { joints: &problem.joints, schur, b, stabilisation: self.stabilisation() }
     }
 
     /// Minimises 1/2 j'S j - b'j + sum area psi(j), convex and piecewise quadratic for fixed bounds: Newton with an exact
     /// line search, also beyond the full step: along what slips freely the tangent has nothing but its stabilisation, which
     /// says the direction and not the length.
-    fn minimise(&self, condensate: &Condensate, start: &[f64], bounds: &[f64]) -> Option<Vec<f64>> {
+    fn minimise(&self, equations: &JumpEquations, start: &[f64], bounds: &[f64]) -> Option<Vec<f64>> {
         let mut jumps = start.to_vec();
         for _ in 0..10 * self.options.max_iterations {
-            let residual = condensate.residual(&jumps, Some(bounds));
+            let residual = equations.residual(&jumps, Some(bounds));
             let relative = residual.relative();
             if relative <= self.options.tolerance / 10. {
                 return Some(jumps);
             }
-            let step = solve_dense(&condensate.tangent(&residual.responses).partial_piv_lu(), residual.force);
+            let step = solve_dense(&equations.tangent(&residual.responses).partial_piv_lu(), residual.force);
             let moved = |alpha: f64| -> Vec<f64> { jumps.iter().zip(&step).map(|(j, d)| j - alpha * d).collect() };
-            let slope = |alpha: f64| -dot(&condensate.residual(&moved(alpha), Some(bounds)).force, &step);
+            let slope = |alpha: f64| -dot(&equations.residual(&moved(alpha), Some(bounds)).force, &step);
             match crossing(slope) {
                 Some(alpha) => jumps = moved(alpha),
                 // Nothing resists, as the rotation of a round body with bounds of 0: the imbalance is the sweeps' round-off.
@@ -96,7 +96,7 @@ impl Residual {
     }
 }
 
-impl Condensate<'_> {
+impl JumpEquations<'_> {
     fn residual(&self, jumps: &[f64], bounds: Option<&[f64]>) -> Residual {
         let responses = self.joints.respond(jumps, bounds);
         let joint = self.joints.interface.forces(responses.iter().map(|r| r.traction));

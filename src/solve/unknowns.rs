@@ -4,10 +4,10 @@
 //! jump = u(ground) - u(body) follows from the displacements, but where stiff joints make it a small difference of large
 //! ones, its digits are lost there: so a state carries it beside them.
 
-use crate::Result;
 use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
 use crate::sparse::{Graph, Orders};
+use crate::{Error, Result};
 use std::collections::BTreeSet;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -30,8 +30,10 @@ impl Unknowns {
     /// `fixed` per node and axis; `orders`: those that are known.
     ///
     /// # Errors
-    /// If there are too many for [`elimination_order`](crate::sparse::elimination_order).
+    /// Pairs that form a ring (three bodies with three interfaces in one point), whose jumps depend on each other; or more
+    /// unknowns than [`elimination_order`](crate::sparse::elimination_order) can number.
     pub fn new(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair], orders: &Orders) -> Result<Unknowns> {
+        refuse_rings(mesh, fixed, pairs)?;
         let (inner, at_interfaces) = order_nodes(mesh, fixed, pairs, orders)?;
         let axes_of = |&node: &usize| (0..2).filter(move |&axis| !fixed[node][axis]).map(move |axis| (node, axis));
         let mut numbers = vec![[None; 2]; fixed.len()];
@@ -86,6 +88,27 @@ impl Unknowns {
         q
     }
 
+    /// q of other unknowns of the same nodes and pairs [as q], the jumps with all their digits.
+    pub fn from_others(&self, others: &Unknowns, q: &[f64]) -> Vec<f64> {
+        let mut own = self.from_nodes(&others.at_nodes(q));
+        for (own_jumps, other_jumps) in self.jumps.iter().zip(&others.jumps) {
+            for axis in 0..2 {
+                if let (Some(to), Some(from)) = (own_jumps[axis], other_jumps[axis]) {
+                    own[self.count + to] = q[others.count + from];
+                }
+            }
+        }
+        own
+    }
+
+    /// A state's vector: something of each unknown, and behind it the jumps.
+    pub fn vector(&self, of_unknown: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut x = Vec::with_capacity(self.with_jumps());
+        x.extend((0..self.count).map(of_unknown));
+        x.extend(self.differences(&x));
+        x
+    }
+
     /// Ground minus body at every jump.
     pub fn differences(&self, q: &[f64]) -> Vec<f64> {
         let [ground, body] = [0, 1].map(|side| move |sides: &[Option<usize>; 2]| sides[side].map_or(0., |i| q[i]));
@@ -118,6 +141,33 @@ impl Unknowns {
 
 fn both_axes(pairs: &[Pair], mut of: impl FnMut(&Pair, usize) -> Option<usize>) -> Vec<[Option<usize>; 2]> {
     pairs.iter().map(|pair| [of(pair, 0), of(pair, 1)]).collect()
+}
+
+/// Errors: a jump that is the sum of others. All held nodes count as one, which does not move.
+fn refuse_rings(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair]) -> Result<()> {
+    let held = fixed.len();
+    for axis in 0..2 {
+        let mut joined_to: Vec<usize> = (0..=held).collect();
+        let end = |joined_to: &[usize], node: usize| {
+            let mut end = if fixed[node][axis] { held } else { node };
+            while joined_to[end] != end {
+                end = joined_to[end];
+            }
+            end
+        };
+        for pair in pairs.iter().filter(|p| !fixed[p.ground][axis] || !fixed[p.body][axis]) {
+            let (ground, body) = (end(&joined_to, pair.ground), end(&joined_to, pair.body));
+            if ground == body {
+                let [x, y] = mesh.points[pair.ground];
+                return Err(Error::input(format!(
+                    "the interfaces at ({x:.4}, {y:.4}) m close a ring of node pairs, or a support holds both ends of a \
+                     chain of them: let at most one body meet the ground in each point"
+                )));
+            }
+            joined_to[ground.min(body)] = ground.max(body);
+        }
+    }
+    Ok(())
 }
 
 /// Nodes that can move, in elimination order: by nested dissection, and then those of the interfaces.

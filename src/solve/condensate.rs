@@ -2,18 +2,21 @@
 //! once. Without joints ground and bodies know nothing of each other there, and T falls apart into blocks.
 
 use super::unknowns::Unknowns;
+use crate::sparse::vector::add;
 use crate::sparse::{Factor, Symmetric};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par};
 
-pub struct Border {
+pub struct Condensate {
     blocks: Vec<Block>,
     /// (place at the border, sign) of the displacements whose sum each jump is
     sides: Vec<Vec<(usize, f64)>>,
     /// S = (N T^-1 N')^-1, the forces at the jumps that make jumps [N/m]
     pub schur: Mat<f64>,
     packed_schur: Symmetric,
+    /// |S|, the root of the sum of the squares of its entries [N/m]
+    pub norm: f64,
 }
 
 /// A part of T that nothing couples to the rest.
@@ -22,11 +25,26 @@ struct Block {
     places: Vec<usize>,
     /// T^-1 [m/N]
     inverse: Symmetric,
+    /// T itself, where solutions are to be refined [N/m]
+    matrix: Option<Symmetric>,
 }
 
-impl Border {
-    /// T = L_cc L_cc', L_cc the trailing block of the factor.
-    pub fn new(factor: &Factor, unknowns: &Unknowns) -> Border {
+impl Block {
+    /// T^-1 b; where T is at hand, with a second round for what the first has left of b.
+    fn displacements(&self, b: &[f64]) -> Vec<f64> {
+        let mut c = self.inverse.times(b);
+        if let Some(matrix) = &self.matrix {
+            let left: Vec<f64> = b.iter().zip(matrix.times(&c)).map(|(b, t)| b - t).collect();
+            add(&mut c, 1., &self.inverse.times(&left));
+        }
+        c
+    }
+}
+
+impl Condensate {
+    /// T = L_cc L_cc', L_cc the trailing block of the factor. What is `refined` gets the last digits, for twice the work: without
+    /// inertia T may be of very stiff and very soft parts.
+    pub fn new(factor: &Factor, unknowns: &Unknowns, refined: bool) -> Condensate {
         let trailing = factor.trailing(unknowns.count - unknowns.border);
         let mut inverse = Mat::zeros(trailing.nrows(), trailing.ncols());
         let mut blocks = Vec::new();
@@ -37,7 +55,8 @@ impl Border {
             solve_lower_triangular_in_place(l.as_ref(), l_inverse.as_mut(), Par::Seq);
             let of_block = l_inverse.transpose() * &l_inverse;
             (0..n).for_each(|j| (0..n).for_each(|i| inverse[(places[i], places[j])] = of_block[(i, j)]));
-            blocks.push(Block { inverse: Symmetric::new(&of_block), places });
+            let matrix = refined.then(|| Symmetric::new(&(&l * l.transpose())));
+            blocks.push(Block { inverse: Symmetric::new(&of_block), matrix, places });
         }
         let jumps = unknowns.with_jumps() - unknowns.count;
         let at_border = |(unknown, sign): (usize, f64)| (unknown - unknowns.border, sign);
@@ -50,15 +69,15 @@ impl Border {
         };
         let flexibility = Mat::from_fn(jumps, jumps, |a, b| between(&sides[a], &sides[b]));
         let schur = flexibility.partial_piv_lu().inverse();
-        Border { blocks, sides, packed_schur: Symmetric::new(&schur), schur }
+        Condensate { blocks, sides, packed_schur: Symmetric::new(&schur), norm: schur.norm_l2(), schur }
     }
 
     /// T^-1 b: displacements [m] under forces at the border [N].
     pub fn displacements(&self, b: &[f64]) -> Vec<f64> {
         let mut c = vec![0.; b.len()];
-        for Block { places, inverse } in &self.blocks {
-            let own: Vec<f64> = places.iter().map(|&i| b[i]).collect();
-            places.iter().zip(inverse.times(&own)).for_each(|(&i, own)| c[i] = own);
+        for block in &self.blocks {
+            let own: Vec<f64> = block.places.iter().map(|&i| b[i]).collect();
+            block.places.iter().zip(block.displacements(&own)).for_each(|(&i, own)| c[i] = own);
         }
         c
     }
