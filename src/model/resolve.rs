@@ -12,7 +12,7 @@ use super::probes::{NodeProbe, probes};
 use super::quality;
 use super::sampled::unseen;
 use super::sides::solid_sides;
-use super::split::{self, Joint, Pair, Seam};
+use super::split::{self, Joint, Opened, Pair, Seam};
 use crate::number::seconds;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
@@ -110,13 +110,9 @@ impl Model {
         let seams = if bonded { vec![] } else { interfaces };
         let (folded, opened) = both(|| quality::refuse_folded(mesh), || split::open(mesh, &seams));
         folded?;
-        let opened = opened?;
-        let mesh = opened.mesh;
-        let laws = opened
-            .joints
-            .iter()
-            .map(|joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]))
-            .collect::<Result<_>>()?;
+        let Opened { mesh, pairs, joints } = opened?;
+        let law = |joint: &Joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]);
+        let laws = joints.iter().map(law).collect::<Result<_>>()?;
         warnings.extend(unused_groups(case, &mesh));
         let sides = solid_sides(&mesh);
         let loads = loads(case, &mesh, &sides, &mut warnings)?;
@@ -131,8 +127,8 @@ impl Model {
             free_fields: vec![],
             loads,
             probes: probes(case, &mesh, &mut warnings)?,
-            pairs: opened.pairs,
-            joints: opened.joints,
+            pairs,
+            joints,
             mass: case.mass,
             damping: case.damping,
             initial: initial(case, &mesh)?,

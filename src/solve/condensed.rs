@@ -16,7 +16,6 @@ use std::sync::Arc;
 /// A x + r(j) = b with x the unknowns, j the jumps between some of them, r the joint forces.
 pub struct Condensed {
     factor: Arc<Factor>,
-    condensate: Arc<Condensate>,
     contact: Contact,
 }
 
@@ -47,17 +46,13 @@ impl Condensed {
         options: Newton,
     ) -> Result<Condensed, NotPositiveDefinite> {
         let factor: Arc<Factor> = symbolic.factor(matrix)?.into();
-        let condensate: Arc<Condensate> = Condensate::new(&factor, &system.unknowns, stiffest > 0.).into();
-        Ok(Condensed { factor, contact: Contact::new(condensate.clone(), stiffest, options), condensate })
+        let condensate = Condensate::new(&factor, &system.unknowns, stiffest > 0.);
+        Ok(Condensed { factor, contact: Contact::new(condensate.into(), stiffest, options) })
     }
 
     /// For another system of the same matrix, whose joints have a history of their own.
     pub fn sharing_factor(&self) -> Condensed {
-        Condensed {
-            factor: self.factor.clone(),
-            condensate: self.condensate.clone(),
-            contact: self.contact.sharing_condensate(),
-        }
+        Condensed { factor: self.factor.clone(), contact: self.contact.sharing_condensate() }
     }
 
     /// A x + r(j) = b; x, the jumps behind it, and how the joints settled. They move on from the jumps `last` and the
@@ -87,7 +82,8 @@ impl Condensed {
     /// Between the sweeps: from the condensed right-hand side at the border to the displacements there that satisfy the
     /// joints, which move on from the jumps `last` towards the `expected` ones.
     pub fn settle(&mut self, b: &[f64], joints: Joints, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
-        let free = self.condensate.jumps(&self.condensate.displacements(b));
+        let condensate = &self.contact.condensate;
+        let free = condensate.jumps(&condensate.displacements(b));
         self.contact.solve(&Problem { joints, b, free: &free, last, expected })
     }
 }

@@ -1,6 +1,5 @@
 //! Cholesky factor A = L L^T: analysed once for a pattern, computed for each set of values.
 
-use std::fmt;
 use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -10,6 +9,7 @@ use faer::{Conj, Mat, MatMut, Par};
 use sprs::CsMat;
 
 use super::panels::Panels;
+use super::pivots::{NotPositiveDefinite, UnreliablePivot};
 use crate::threads::both;
 
 /// Where the factor of a pattern has its entries. Unknowns are eliminated in the order in which they are numbered.
@@ -19,38 +19,6 @@ pub struct Symbolic {
     supernodes: supernodal::SymbolicSupernodalCholesky<usize>,
     panels: Arc<Panels>,
 }
-
-/// The matrix has no Cholesky factor: the pivot of `unknown` is not a positive number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NotPositiveDefinite {
-    pub unknown: usize,
-}
-
-impl fmt::Display for NotPositiveDefinite {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the matrix is not positive definite: the pivot of unknown {} is not positive", self.unknown)
-    }
-}
-
-impl std::error::Error for NotPositiveDefinite {}
-
-/// A pivot that is too small to divide by has spoilt the row of `unknown`: the signs of the pivots prove nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct UnreliablePivot {
-    pub unknown: usize,
-}
-
-impl fmt::Display for UnreliablePivot {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "a pivot is too near to zero to count eigenvalues (noticed at unknown {}); move the shift",
-            self.unknown
-        )
-    }
-}
-
-impl std::error::Error for UnreliablePivot {}
 
 /// L of A = L L^T, packed for the two sweeps (see `sweeps`).
 pub struct Factor {

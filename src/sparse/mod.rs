@@ -7,16 +7,18 @@ pub mod lanczos;
 pub mod ordering;
 pub mod orders;
 mod panels;
+pub mod pivots;
 pub mod sweeps;
 pub mod symmetric;
 pub mod upper;
 pub mod vector;
 mod widest;
 
-pub use factor::{Factor, NotPositiveDefinite, Symbolic, UnreliablePivot};
+pub use factor::{Factor, Symbolic};
 pub use lanczos::{Mode, smallest_modes};
 pub use ordering::{Graph, elimination_order};
 pub use orders::Orders;
+pub use pivots::{NotPositiveDefinite, UnreliablePivot};
 pub use symmetric::Symmetric;
 pub use upper::Upper;
 
