@@ -8,9 +8,10 @@ use coralpipe::physics::element::{self, Integral};
 use coralpipe::results::ring::{Section, rings};
 use coralpipe::results::sites::Sites;
 use coralpipe::results::stress::Recovery;
+use coralpipe::solve::law::Scheme;
 use coralpipe::solve::march::March;
 use coralpipe::solve::start;
-use coralpipe::solve::step::Scheme;
+use coralpipe::solve::step::Step;
 use coralpipe::solve::system::State;
 use coralpipe::study::prepare::Prepared;
 use std::collections::BTreeSet;
@@ -120,7 +121,7 @@ fn prepared(name: &str, json: &str, mesh: &Mesh, bonded: bool) -> Prepared {
 fn statics(prepared: &Prepared) -> State {
     let Prepared { model, system, symbolic, .. } = prepared;
     let mut march = March::new(system, symbolic, Scheme::Static, 1., model.newton).unwrap();
-    march.advance(&State::at_rest(system)).unwrap().pop().unwrap().state
+    march.advance(&Step::start(State::at_rest(system))).unwrap().pop().unwrap().into_state()
 }
 
 fn sections(prepared: &Prepared, state: &State) -> Vec<Section> {
@@ -318,14 +319,15 @@ fn opposite_cuts_balance_tractions_and_inertia_while_the_pipe_moves() {
     let scheme = Scheme::Dynamic(Integrator { newmark: Newmark::default(), hht: 0. });
     let mut march = March::new(system, symbolic, scheme, model.time.step, model.newton).unwrap();
     let rest = start::under_gravity(system, symbolic, model.newton).unwrap().unwrap();
-    let mut state = start::with_acceleration(system, symbolic, rest, model.start).unwrap();
+    let mut last = Step::start(start::with_acceleration(system, symbolic, rest, model.start).unwrap());
     for step in 1..=100 {
-        state = march.advance(&state).unwrap().pop().unwrap().state;
+        last = march.advance(&last).unwrap().pop().unwrap();
+        let state = last.state();
         if step % 20 == 0 {
-            let imbalance = imbalance(&prepared, &state);
+            let imbalance = imbalance(&prepared, state);
             println!(
                 "step {step}: {imbalance:.1e}, inertia {:.0?}",
-                inertia(&prepared, &state, &prepared.model.mesh.group("pipe").unwrap().cells)
+                inertia(&prepared, state, &prepared.model.mesh.group("pipe").unwrap().cells)
             );
             assert!(imbalance < 1e-9);
         }

@@ -7,7 +7,8 @@ use coralpipe::model::resolve::Model;
 use coralpipe::solve::assembly;
 use coralpipe::solve::condensed::Condensed;
 use coralpipe::solve::interface::JointState;
-use coralpipe::solve::step::{Scheme, Stepper};
+use coralpipe::solve::law::Scheme;
+use coralpipe::solve::step::{Step, Stepper};
 use coralpipe::solve::system::{State, System};
 use coralpipe::sparse::multiply;
 use coralpipe::sparse::vector::norm;
@@ -96,5 +97,5 @@ fn a_step_that_leaves_no_digits_is_not_accepted() {
     let system = System::new(&model).unwrap();
     let scheme = Scheme::Dynamic(model.integrator);
     let mut stepper = Stepper::new(&system, &system.symbolic(), scheme, 10., model.newton).unwrap();
-    assert!(stepper.step(&system, &State::at_rest(&system)).is_err());
+    assert!(stepper.step(&system, &Step::start(State::at_rest(&system))).is_err());
 }

@@ -4,9 +4,10 @@ mod support;
 
 use coralpipe::model::mesh::Mesh;
 use coralpipe::model::resolve::Model;
+use coralpipe::solve::law::Scheme;
 use coralpipe::solve::march::March;
 use coralpipe::solve::start;
-use coralpipe::solve::step::{Scheme, Step};
+use coralpipe::solve::step::Step;
 use coralpipe::solve::system::{Rayleigh, State, System};
 use serde_json::{Value, json};
 use support::root;
@@ -50,33 +51,33 @@ fn each_case_among_others_gets_the_digits_that_it_gets_alone() {
             let system = System::new(&models[k]).unwrap().with_damping(DAMPED, true);
             let symbolic = system.symbolic();
             let mut march = March::new(&system, &symbolic, Scheme::Dynamic(*integrator), time.step, *newton).unwrap();
-            let mut state = begin(&system).unwrap();
+            let mut last = Step::start(begin(&system).unwrap());
             let mut all = Vec::new();
             for _ in 0..STEPS {
-                let Ok(steps) = march.advance(&state) else { break };
-                state = steps.last().unwrap().state.clone();
+                let Ok(steps) = march.advance(&last) else { break };
+                last = steps.last().unwrap().clone();
                 all.extend(steps);
             }
             all
         })
         .collect();
     assert!(alone[1].is_empty(), "a load of 1e200 Pa has a state");
-    let slipped = |steps: &Vec<Step>| steps.iter().any(|s| s.state.joints.iter().any(|j| j.status.is_slipping()));
+    let slipped = |steps: &Vec<Step>| steps.iter().any(|s| s.state().joints.iter().any(|j| j.status.is_slipping()));
     assert!(alone.iter().filter(|steps| slipped(steps)).count() > 5, "joints must slip for this to say something");
 
     for count in [1, 2, 3, 5, 8] {
         let mut marches: Vec<March> = systems[..count].iter().map(|system| lead.sharing_factor(system)).collect();
-        let mut states: Vec<State> = systems[..count].iter().map(|system| begin(system).unwrap()).collect();
+        let mut last: Vec<Step> = systems[..count].iter().map(|system| Step::start(begin(system).unwrap())).collect();
         let mut together: Vec<Vec<Step>> = vec![vec![]; count];
         let mut going: Vec<usize> = (0..count).collect();
         for _ in 0..STEPS {
             let mut there =
                 marches.iter_mut().enumerate().filter(|(k, _)| going.contains(k)).map(|(_, m)| m).collect::<Vec<_>>();
-            let old: Vec<&State> = going.iter().map(|&k| &states[k]).collect();
+            let old: Vec<&Step> = going.iter().map(|&k| &last[k]).collect();
             let advanced = March::advance_together(&mut there, &old);
             let ended: Vec<usize> = going.iter().zip(&advanced).filter(|(_, s)| s.is_err()).map(|(&k, _)| k).collect();
             for (&k, steps) in going.iter().zip(advanced).filter_map(|(k, steps)| Some((k, steps.ok()?))) {
-                states[k] = steps.last().unwrap().state.clone();
+                last[k] = steps.last().unwrap().clone();
                 together[k].extend(steps);
             }
             going.retain(|k| !ended.contains(k));

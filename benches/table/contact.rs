@@ -4,14 +4,14 @@ use super::case::{Size, ready_to_march};
 use super::clock::{Samples, seconds as time};
 use super::table::{Row, seconds};
 use coralpipe::solve::march::March;
-use coralpipe::solve::system::State;
+use coralpipe::solve::step::Step;
 
 const ROUNDS: usize = 3;
 /// Steps of one before the other has its turn: enough to have its own factor in the cache, if that fits.
 const TURN: usize = 50;
 
 struct Runner<'a> {
-    state: State,
+    last: Step,
     march: March<'a>,
     seconds: f64,
     /// steps that left some joint open, and slipping
@@ -23,11 +23,12 @@ impl Runner<'_> {
     fn take_turn(&mut self, steps: usize) {
         for _ in 0..steps {
             self.seconds += time(|| {
-                let mut steps = self.march.advance(&self.state).expect("the default case converges");
-                self.state = steps.pop().expect("an advance has at least one step").state;
+                let mut steps = self.march.advance(&self.last).expect("the default case converges");
+                self.last = steps.pop().expect("an advance has at least one step");
             });
-            self.open += usize::from(self.state.joints.iter().any(|j| j.status.is_open()));
-            self.slipping += usize::from(self.state.joints.iter().any(|j| j.status.is_slipping()));
+            let joints = &self.last.state().joints;
+            self.open += usize::from(joints.iter().any(|j| j.status.is_open()));
+            self.slipping += usize::from(joints.iter().any(|j| j.status.is_slipping()));
         }
     }
 }
@@ -38,8 +39,8 @@ pub fn rows(size: &Size) -> Vec<Row> {
     let (mut of_contact, mut of_bonded) = (Samples(vec![]), Samples(vec![]));
     for _ in 0..ROUNDS {
         let [mut a, mut b] = [&contact, &bonded].map(|prepared| {
-            let (state, march) = ready_to_march(prepared);
-            Runner { state, march, seconds: 0., open: 0, slipping: 0 }
+            let (last, march) = ready_to_march(prepared);
+            Runner { last, march, seconds: 0., open: 0, slipping: 0 }
         });
         for _ in 0..steps / TURN {
             a.take_turn(TURN);

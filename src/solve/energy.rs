@@ -8,9 +8,9 @@
 //! The residual is round-off; with other Newmark parameters or HHT it is their numerical damping, and where the case
 //! starts with a = 0 it holds the first imbalance.
 
-use super::system::{Products, Rayleigh, State, System};
-use crate::sparse::multiply;
+use super::system::{Rayleigh, State, System};
 use crate::sparse::vector::dot;
+use crate::sparse::{Factors, multiply};
 use sprs::CsMat;
 
 /// Energies since the start, per metre of pipe [J].
@@ -40,8 +40,8 @@ pub struct Ledger {
     pub peak: f64,
     /// the largest |residual| so far
     worst: f64,
-    /// forces at the last state: loads, free field and joints
-    load: Vec<f64>,
+    /// forces at the last state: loads that come and go, free field and joints
+    load: Vec<(usize, f64)>,
     free_field: Vec<(usize, f64)>,
     joint_force: Vec<f64>,
 }
@@ -53,7 +53,7 @@ impl Ledger {
             now: Energies { work: now.kinetic + now.strain + now.joint, ..now },
             peak: now.kinetic + now.strain + now.joint,
             worst: 0.,
-            load: system.load(state.time),
+            load: system.passing_load(state.time),
             free_field: free_field(system, state),
             joint_force: joint_force(system, state),
         }
@@ -62,13 +62,14 @@ impl Ledger {
     /// The ledger after one accepted step; `forms` of its two states.
     pub fn after(&self, system: &System, old: &State, new: &State, forms: Forms) -> Ledger {
         let dt = new.time - old.time;
-        let load = system.load(new.time);
+        let load = system.passing_load(new.time);
         let free_field = free_field(system, new);
         let joint_force = joint_force(system, new);
-        let du: Vec<f64> = new.q.iter().zip(&old.q).map(|(n, o)| n - o).collect();
 
-        let work = mean_dot(&self.load, &load, system.displacements(&du));
-        let joint_work = mean_dot(&self.joint_force, &joint_force, system.jumps(&du));
+        let [u, before] = [new, old].map(|state| system.displacements(&state.q));
+        let lasting = system.lasting_load().map_or(0., |f| dot(&f, &growth(before, u)));
+        let work = lasting + mean_work(&self.load, &load, old, new);
+        let joint_work = mean_dot(&self.joint_force, &joint_force, &growth_of_jumps(system, old, new));
         let stored = stored(system, new, forms);
         let dashpots = system
             .dashpots
@@ -79,7 +80,7 @@ impl Ledger {
         let friction = friction(system, old, new);
         let mut now = Energies {
             work: self.now.work + work,
-            free_field: self.now.free_field + side_work(&self.free_field, &free_field, &du),
+            free_field: self.now.free_field + mean_work(&self.free_field, &free_field, old, new),
             damping: self.now.damping + damping,
             boundary: self.now.boundary + dashpots + beyond,
             friction: self.now.friction + friction,
@@ -120,8 +121,7 @@ impl Ledger {
 
 /// What the joints give in one step beyond what they stored and friction ate: -(r_n + r_n+1)'dj/2 - stored - friction [J].
 pub fn joint_gain(system: &System, old: &State, new: &State) -> f64 {
-    let dj: Vec<f64> = system.jumps(&new.q).iter().zip(system.jumps(&old.q)).map(|(n, o)| n - o).collect();
-    let work = mean_dot(&joint_force(system, old), &joint_force(system, new), &dj);
+    let work = mean_dot(&joint_force(system, old), &joint_force(system, new), &growth_of_jumps(system, old, new));
     stored_in_joints(system, new) - stored_in_joints(system, old) + friction(system, old, new) - work
 }
 
@@ -135,32 +135,26 @@ pub fn mechanical(system: &System, state: &State, forms: Forms) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Forms {
     /// u'Ku [J]
-    strain: f64,
+    pub strain: f64,
     /// v'Mv [J]
-    kinetic: f64,
+    pub kinetic: f64,
     /// w'Cw [W], w the mean of the last velocity and this one
-    drained: f64,
+    pub drained: f64,
 }
 
 impl Forms {
-    pub fn of(system: &System, old: &State, new: &State) -> Forms {
-        Forms::of_all::<1>(system, &[Some((old, new))])[0]
+    /// u, v and w in one unknown, from its (u, v, a) and its velocity before.
+    #[inline(always)]
+    pub fn factors([u, v, _]: [f64; 3], v_before: f64) -> [f64; 3] {
+        [u, v, (v + v_before) / 2.]
     }
 
-    /// Of up to K pairs (old, new), reading the matrices once; nothing for none.
-    pub fn of_all<const K: usize>(system: &System, pairs: &[Option<(&State, &State)>]) -> Vec<Forms> {
-        let Products { pattern, stiffness, mass, damping } = &*system.products;
-        let of_unknown = |i: usize| {
-            let mut motion = [[0.; K]; 3];
-            for (k, (old, new)) in pairs.iter().enumerate().filter_map(|(k, pair)| Some((k, (*pair)?))) {
-                [motion[0][k], motion[1][k], motion[2][k]] = [new.q[i], new.v[i], (new.v[i] + old.v[i]) / 2.];
-            }
-            motion
-        };
-        let motion: Vec<[[f64; K]; 3]> = (0..system.unknowns.count).map(of_unknown).collect();
-        let [strain, kinetic, drained] = pattern.quadratic_forms([stiffness, mass, damping], &motion);
-        let forms = |k: usize| Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] };
-        (0..pairs.len()).map(forms).collect()
+    pub fn of(system: &System, old: &State, new: &State) -> Forms {
+        let factors = |i: usize| Forms::factors([new.q[i], new.v[i], new.a[i]], old.v[i]).map(|x| [x]);
+        let of_unknown = |i: usize| Factors { forms: factors(i), ..Factors::ZERO };
+        let factors: Vec<Factors<1>> = (0..system.unknowns.count).map(of_unknown).chain([Factors::ZERO]).collect();
+        let [[strain], [kinetic], [drained]] = system.interleaved.read(&factors).forms;
+        Forms { strain, kinetic, drained }
     }
 }
 
@@ -212,9 +206,17 @@ fn joint_force(system: &System, state: &State) -> Vec<f64> {
     system.interface.forces(state.joints.iter().map(|j| j.traction))
 }
 
-/// The forces at both times act on the same unknowns.
-fn side_work(old: &[(usize, f64)], new: &[(usize, f64)], x: &[f64]) -> f64 {
-    old.iter().zip(new).map(|((_, o), (i, n))| (o + n) / 2. * x[*i]).sum()
+/// Of forces (unknown, [N]) that change from old to new ones while the unknowns move.
+fn mean_work(old_forces: &[(usize, f64)], new_forces: &[(usize, f64)], old: &State, new: &State) -> f64 {
+    old_forces.iter().chain(new_forces).map(|&(i, f)| f / 2. * (new.q[i] - old.q[i])).sum()
+}
+
+fn growth_of_jumps(system: &System, old: &State, new: &State) -> Vec<f64> {
+    growth(system.jumps(&old.q), system.jumps(&new.q))
+}
+
+fn growth(old: &[f64], new: &[f64]) -> Vec<f64> {
+    new.iter().zip(old).map(|(n, o)| n - o).collect()
 }
 
 fn mean_dot(a: &[f64], b: &[f64], x: &[f64]) -> f64 {

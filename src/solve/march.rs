@@ -1,7 +1,8 @@
 //! The march through time: equal steps, cut in half where the joints do not settle, always back on the grid.
 
 use super::energy::{joint_gain, mechanical};
-use super::step::{Scheme, Step, Stepper, step_together};
+use super::law::Scheme;
+use super::step::{Step, Stepper, step_together};
 use super::system::{State, System};
 use super::unsettled::{Place, Unsettled};
 use crate::model::case::Newton;
@@ -33,7 +34,7 @@ impl Budget {
     /// Newmark's force within a step is a straight line, a joint's is not where it opens or closes: the step then gains
     /// about kappa v^2 dt^2, a quarter of it after halving the step.
     fn allows(&mut self, system: &System, old: &State, step: &Step) -> bool {
-        let new = &step.state;
+        let new = step.state();
         self.peak = self.peak.max(mechanical(system, new, step.forms));
         joint_gain(system, old, new) <= self.rate * (new.time - old.time) * self.peak
     }
@@ -69,29 +70,29 @@ impl<'a> March<'a> {
     /// The state one whole step later, with the states between where it had to be cut.
     ///
     /// Error: the joints do not settle even in the shortest step; nothing unconverged is ever returned.
-    pub fn advance(&mut self, old: &State) -> Result<Vec<Step>, Unsettled> {
+    pub fn advance(&mut self, old: &Step) -> Result<Vec<Step>, Unsettled> {
         let whole = self.levels[0].step(self.system, old);
         self.on_the_grid(whole, old)
     }
 
     /// [`March::advance`] of up to [`MOST_TOGETHER`](super::step::MOST_TOGETHER) marches over the same factor.
-    pub fn advance_together(marches: &mut [&mut March], old: &[&State]) -> Vec<Result<Vec<Step>, Unsettled>> {
+    pub fn advance_together(marches: &mut [&mut March], old: &[&Step]) -> Vec<Result<Vec<Step>, Unsettled>> {
         let systems: Vec<&System> = marches.iter().map(|march| march.system).collect();
         let mut steppers: Vec<&mut Stepper> = marches.iter_mut().map(|march| &mut march.levels[0]).collect();
         let whole = step_together(&mut steppers, &systems, old);
         marches.iter_mut().zip(whole).zip(old).map(|((march, whole), old)| march.on_the_grid(whole, old)).collect()
     }
 
-    fn on_the_grid(&mut self, whole: Result<Step, Unsettled>, old: &State) -> Result<Vec<Step>, Unsettled> {
+    fn on_the_grid(&mut self, whole: Result<Step, Unsettled>, old: &Step) -> Result<Vec<Step>, Unsettled> {
         let mut steps = self.or_in_halves(0, whole, old)?;
-        if let Some(last) = steps.last_mut() {
-            // Sums of steps drift from the grid by round-off.
-            last.state.time = ((old.time / self.dt).round() + 1.) * self.dt;
-        }
+        // Sums of steps drift from the grid by round-off.
+        let time = ((old.state().time / self.dt).round() + 1.) * self.dt;
+        let last = steps.pop().map(|last| last.at(time));
+        steps.extend(last);
         Ok(steps)
     }
 
-    fn advance_at(&mut self, level: usize, old: &State) -> Result<Vec<Step>, Unsettled> {
+    fn advance_at(&mut self, level: usize, old: &Step) -> Result<Vec<Step>, Unsettled> {
         if level == self.levels.len() {
             let dt = self.dt / f64::powi(2., level as i32);
             let shorter = Stepper::new(self.system, self.symbolic, self.scheme, dt, self.options)
@@ -107,16 +108,16 @@ impl<'a> March<'a> {
         &mut self,
         level: usize,
         whole: Result<Step, Unsettled>,
-        old: &State,
+        old: &Step,
     ) -> Result<Vec<Step>, Unsettled> {
         let system = self.system;
         match whole.and_then(|step| finite(system, step)) {
             tried if level == MAX_CUTS => Ok(vec![tried?]),
-            Ok(step) if self.budget.as_mut().is_none_or(|b| b.allows(system, old, &step)) => Ok(vec![step]),
+            Ok(step) if self.budget.as_mut().is_none_or(|b| b.allows(system, old.state(), &step)) => Ok(vec![step]),
             _ => {
                 let mut steps = self.advance_at(level + 1, old)?;
-                let half_way = &steps.last().expect("an advance has at least one step").state;
-                let rest = self.advance_at(level + 1, &half_way.clone())?;
+                let half_way = steps.last().expect("an advance has at least one step");
+                let rest = self.advance_at(level + 1, half_way)?;
                 steps.extend(rest);
                 Ok(steps)
             }
@@ -125,10 +126,10 @@ impl<'a> March<'a> {
 }
 
 fn finite(system: &System, step: Step) -> Result<Step, Unsettled> {
-    if step.state.is_finite() {
+    if step.state().is_finite() {
         return Ok(step);
     }
-    let State { q, v, a, .. } = &step.state;
+    let State { q, v, a, .. } = step.state();
     let spoilt = |x: &Vec<f64>| system.unknowns.at_nodes(x).iter().position(|u| !u.iter().all(|u| u.is_finite()));
     Err(Unsettled::Overflow([q, v, a].into_iter().find_map(spoilt).map_or(Place::Matrix, Place::Node)))
 }

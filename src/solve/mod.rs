@@ -9,6 +9,7 @@ pub mod free_field;
 pub mod interface;
 mod inverse;
 pub mod joints;
+pub mod law;
 pub mod march;
 pub mod modes;
 pub mod newmark;

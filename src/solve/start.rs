@@ -20,13 +20,11 @@ pub fn under_gravity(
     options: Newton,
 ) -> Result<Result<State, Unsettled>, NotPositiveDefinite> {
     let rest = State::at_rest(system);
-    if system.gravity.iter().all(|&f| f == 0.) {
-        return Ok(Ok(rest));
-    }
+    let Some(gravity) = &system.gravity else { return Ok(Ok(rest)) };
     let mut condensed = Condensed::hanging(system, symbolic, options)?;
     let mut in_parts = |parts: usize| {
         (1..=parts).try_fold(rest.clone(), |old, part| {
-            let load = system.gravity.iter().map(|f| f * part as f64 / parts as f64).collect();
+            let load = gravity.iter().map(|f| f * part as f64 / parts as f64).collect();
             let (q, settled) = condensed.solve(system, load, system.jumps(&old.q), &old.joints)?;
             Ok(State { q, joints: settled.responses.iter().map(JointState::from).collect(), ..old })
         })
@@ -46,7 +44,7 @@ pub fn under_gravity(
 pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f64>) {
     let q = system.unknowns.from_others(&held.unknowns, &state.q);
     let mut unbalanced = multiply(&system.stiffness, system.displacements(&q));
-    add(&mut unbalanced, -1., &system.gravity);
+    system.gravity.iter().for_each(|gravity| add(&mut unbalanced, -1., gravity));
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
     system.unknowns.add_at_jumps(&mut unbalanced, 1., &joint_forces);
     // Elsewhere only the boundaries' springs, which were not there, are to be balanced; the rest is what Newton left.

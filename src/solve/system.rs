@@ -8,7 +8,8 @@ use crate::Result;
 use crate::model::moving_front::MovingFront;
 use crate::model::resolve::Model;
 use crate::physics::pulse::Pulse;
-use crate::sparse::{Orders, Symbolic, Upper, multiply};
+use crate::sparse::vector::add_at;
+use crate::sparse::{Interleaved, Orders, Symbolic, multiply};
 use nalgebra::Matrix2;
 use serde::Serialize;
 use sprs::{CsMat, TriMat};
@@ -28,37 +29,22 @@ pub struct System {
     pub dashpots: Option<Arc<CsMat<f64>>>,
     /// zero until [`System::with_damping`]
     pub rayleigh: Rayleigh,
-    pub products: Arc<Products>,
+    /// K, M and C as every step reads them
+    pub interleaved: Arc<Interleaved>,
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
     pub interface: Interface,
-    /// weight of everything [N]; acts at all times
-    pub gravity: Vec<f64>,
-    /// what held the absorbing boundaries in the static stage [N]; acts at all times, zero until
+    /// weight of everything [N], if anything weighs; acts at all times
+    pub gravity: Option<Arc<Vec<f64>>>,
+    /// what held the absorbing boundaries in the static stage [N]; acts at all times, none until
     /// [`start::released`](super::start::released)
-    pub reactions: Vec<f64>,
+    pub reactions: Option<Vec<f64>>,
     /// the ground beyond free-field sides
     pub columns: Vec<Column>,
-    /// spatial vector [N per unit of the pulse] and history
-    loads: Vec<(Vec<f64>, Pulse)>,
+    /// (unknown, N per unit of the pulse) and history
+    loads: Vec<(Vec<(usize, f64)>, Pulse)>,
     /// loads that do not act everywhere at once
     fronts: Vec<MovingFront>,
-}
-
-/// K, M and C as every step reads them: the upper triangles' values.
-pub struct Products {
-    pub pattern: Upper,
-    pub stiffness: Vec<f64>,
-    pub mass: Vec<f64>,
-    pub damping: Vec<f64>,
-}
-
-impl Products {
-    fn new(stiffness: &CsMat<f64>, mass: &CsMat<f64>, damping: &CsMat<f64>) -> Products {
-        let pattern = Upper::new(mass);
-        let [stiffness, mass, damping] = [stiffness, mass, damping].map(|matrix| pattern.values(matrix));
-        Products { pattern, stiffness, mass, damping }
-    }
 }
 
 /// Rayleigh damping C = alpha M + beta K.
@@ -96,12 +82,12 @@ impl System {
         let damping = assembly::dashpots(model, &unknowns, scaled(&mass, 0.));
         Ok(System {
             dashpots: (!model.absorbers.is_empty()).then(|| Arc::new(without_zeros(&damping))),
-            products: Arc::new(Products::new(&stiffness, &mass, &damping)),
+            interleaved: Interleaved::new([&stiffness, &mass, &damping]).into(),
             rayleigh: Rayleigh::default(),
             joint_beta: None,
             interface: interface(model, &unknowns),
-            gravity: assembly::gravity(model, &unknowns),
-            reactions: vec![0.; unknowns.count],
+            gravity: (model.gravity > 0.).then(|| assembly::gravity(model, &unknowns).into()),
+            reactions: None,
             columns: columns(model, &unknowns, orders)?,
             loads: loads(model, &unknowns),
             fronts: fronts(model),
@@ -123,11 +109,11 @@ impl System {
             damping: self.damping.clone(),
             dashpots: self.dashpots.clone(),
             rayleigh: self.rayleigh,
-            products: self.products.clone(),
+            interleaved: self.interleaved.clone(),
             joint_beta: self.joint_beta,
             interface: interface(model, &self.unknowns),
             gravity: self.gravity.clone(),
-            reactions: vec![0.; self.unknowns.count],
+            reactions: None,
             loads: loads(model, &self.unknowns),
             fronts: fronts(model),
         })
@@ -144,7 +130,7 @@ impl System {
         let stiffness = combine(&[(1., &self.stiffness), (alpha / 2., dashpots)]);
         let mass = combine(&[(1., &self.mass), (beta / 2., dashpots)]);
         System {
-            products: Arc::new(Products::new(&stiffness, &mass, &damping)),
+            interleaved: Interleaved::new([&stiffness, &mass, &damping]).into(),
             stiffness: stiffness.into(),
             mass: mass.into(),
             damping: damping.into(),
@@ -162,17 +148,28 @@ impl System {
 
     /// f(t) [N]: loads, weight, and what held the boundaries when nothing moved.
     pub fn load(&self, time: f64) -> Vec<f64> {
-        let mut f: Vec<f64> = self.gravity.iter().zip(&self.reactions).map(|(g, r)| g + r).collect();
-        for (vector, pulse) in &self.loads {
-            let factor = pulse.at(time);
-            f.iter_mut().zip(vector).for_each(|(f, r)| *f += factor * r);
-        }
-        for (node, force) in self.fronts.iter().flat_map(|front| front.forces(time)) {
-            for axis in 0..2 {
-                self.unknowns.of(node, axis).iter().for_each(|&i| f[i] += force[axis]);
-            }
-        }
+        let mut f = self.lasting_load().unwrap_or(vec![0.; self.unknowns.count]);
+        add_at(&mut f, 1., &self.passing_load(time));
         f
+    }
+
+    /// The part of f that acts at all times, if there is any [N].
+    pub fn lasting_load(&self) -> Option<Vec<f64>> {
+        let both = [self.gravity.as_deref(), self.reactions.as_ref()].into_iter().flatten();
+        both.cloned().reduce(|g, r| g.iter().zip(r).map(|(g, r)| g + r).collect())
+    }
+
+    /// The part of f that comes and goes: (unknown, force [N]), an unknown perhaps several times.
+    pub fn passing_load(&self, time: f64) -> Vec<(usize, f64)> {
+        let at_once = self.loads.iter().flat_map(|(vector, pulse)| {
+            let factor = pulse.at(time);
+            vector.iter().map(move |(i, r)| (*i, factor * r))
+        });
+        let of_front = |(node, force): (usize, [f64; 2])| {
+            [0, 1].into_iter().filter_map(move |axis| Some((self.unknowns.of(node, axis)?, force[axis])))
+        };
+        let fronts = self.fronts.iter().flat_map(|front| front.forces(time)).flat_map(of_front);
+        at_once.chain(fronts).collect()
     }
 
     /// The boundaries' share of K u, alpha D u / 2 [N].
@@ -238,9 +235,10 @@ fn interface(model: &Model, unknowns: &Unknowns) -> Interface {
     Interface::new(&model.mesh, &model.pairs, &model.joints, &model.laws, &unknowns.jumps)
 }
 
-fn loads(model: &Model, unknowns: &Unknowns) -> Vec<(Vec<f64>, Pulse)> {
+fn loads(model: &Model, unknowns: &Unknowns) -> Vec<(Vec<(usize, f64)>, Pulse)> {
     let simultaneous = model.loads.iter().filter(|load| load.front.is_none());
-    simultaneous.map(|load| (assembly::load(model, unknowns, load), load.pulse.clone())).collect()
+    let loaded = |vector: Vec<f64>| vector.into_iter().enumerate().filter(|(_, r)| *r != 0.).collect();
+    simultaneous.map(|load| (loaded(assembly::load(model, unknowns, load)), load.pulse.clone())).collect()
 }
 
 fn fronts(model: &Model) -> Vec<MovingFront> {
@@ -254,7 +252,8 @@ fn columns(model: &Model, unknowns: &Unknowns, orders: &Orders) -> Result<Vec<Co
 impl State {
     /// Small enough for energies to be finite, too: their squares times stiffnesses, summed, stay below 1e308.
     pub fn is_finite(&self) -> bool {
-        let finite = |x: &Vec<f64>| x.iter().all(|x| x.abs() < 1e140);
+        // all of them: a loop that may stop in the middle takes one at a time
+        let finite = |x: &Vec<f64>| x.iter().fold(true, |finite, x| finite & (x.abs() < 1e140));
         [&self.q, &self.v, &self.a].into_iter().all(finite) && self.free_field.iter().all(State::is_finite)
     }
 

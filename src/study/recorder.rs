@@ -72,28 +72,28 @@ impl<'a> Recorder<'a> {
         Ok(recorder)
     }
 
-    /// One whole step of the grid, given as the steps it was made of; returns the state at its end.
-    pub fn record(&mut self, number: usize, old: State, steps: Vec<Step>) -> Result<State> {
+    /// One whole step of the grid, given as the steps it was made of; returns the last of them.
+    pub fn record(&mut self, number: usize, old: Step, steps: Vec<Step>) -> Result<Step> {
         let system = &self.prepared.system;
         self.contact.cut_steps += usize::from(steps.len() > 1);
-        let mut state = old;
+        let mut last = old;
         for step in steps {
-            self.ledger = self.ledger.after(system, &state, &step.state, step.forms);
-            let jumps = system.jumps(&step.state.q);
-            self.contact = self.contact.after(&system.interface, &state, &step.state, jumps);
+            let (old, new) = (last.state(), step.state());
+            self.ledger = self.ledger.after(system, old, new, step.forms);
+            self.contact = self.contact.after(&system.interface, old, new, system.jumps(&new.q));
             self.iterations += step.iterations;
             self.steps += 1;
-            self.write_status(number, &state, &step);
-            state = step.state;
+            self.write_status(number, old, &step);
+            last = step;
         }
-        self.histories.record(&system.unknowns, &state, &self.origin);
+        self.histories.record(&system.unknowns, last.state(), &self.origin);
         let time = &self.prepared.model.time;
         if number.is_multiple_of(time.steps_per_frame) || number == time.steps {
-            self.write_frame(&state)?;
+            self.write_frame(last.state())?;
         } else if self.status.waiting.len() > LONGEST_WAIT {
             self.flush()?;
         }
-        Ok(state)
+        Ok(last)
     }
 
     fn write_frame(&mut self, state: &State) -> Result<()> {
@@ -108,7 +108,7 @@ impl<'a> Recorder<'a> {
 
     fn write_status(&mut self, number: usize, old: &State, step: &Step) {
         let system = &self.prepared.system;
-        let (open, slipping) = open_and_slipping(&system.interface, &step.state, system.jumps(&step.state.q));
+        let (open, slipping) = open_and_slipping(&system.interface, step.state(), system.jumps(&step.state().q));
         let e = &self.ledger.now;
         let left =
             self.started.elapsed().as_secs_f64() / number as f64 * (self.prepared.model.time.steps - number) as f64;
@@ -116,8 +116,8 @@ impl<'a> Recorder<'a> {
             self.status.waiting,
             "{number:7} {:12.5e} {:9.2e} {:4} {:9.2e} {open:5} {slipping:5} {:11.4e} {:11.4e} {:11.4e} {:11.4e} \
              {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
-            step.state.time,
-            step.state.time - old.time,
+            step.state().time,
+            step.state().time - old.time,
             step.iterations,
             step.displacement_test,
             e.work,

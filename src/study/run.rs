@@ -15,9 +15,10 @@ use crate::model::resolve::Model;
 use crate::number::seconds;
 use crate::results::folder::Folder;
 use crate::results::summary::Timing;
+use crate::solve::law::Scheme;
 use crate::solve::march::March;
 use crate::solve::start;
-use crate::solve::step::{Scheme, Stepper};
+use crate::solve::step::{Step, Stepper};
 use crate::solve::system::{State, System};
 use crate::sparse::{NotPositiveDefinite, Symbolic};
 use crate::threads::both;
@@ -163,8 +164,8 @@ pub(super) fn at_start(prepared: &Prepared, rest: State) -> Result<(State, Vec<f
     let (state, origin) = match model.analysis {
         Analysis::Static => {
             let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
-            let start = at_once.step(system, &rest).map_err(|why| unsettled::at_start(prepared, &why))?;
-            (start.state, State::at_rest(system).q)
+            let start = at_once.step(system, &Step::start(rest)).map_err(|why| unsettled::at_start(prepared, &why))?;
+            (start.into_state(), State::at_rest(system).q)
         }
         Analysis::Dynamic => {
             let Initial { displacement, velocity } = &model.initial;
@@ -194,7 +195,7 @@ pub(super) fn under_gravity(prepared: &mut Prepared) -> Result<State> {
     let held = System::ordered(&prepared.model.held(), &prepared.orders)?;
     let rest = settle(prepared, &held, &held.symbolic())?;
     let (state, reactions) = start::released(&prepared.system, &held, &rest);
-    Arc::get_mut(&mut prepared.system).expect("nobody has taken a share of it yet").reactions = reactions;
+    Arc::get_mut(&mut prepared.system).expect("nobody has taken a share of it yet").reactions = Some(reactions);
     Ok(state)
 }
 
@@ -212,17 +213,17 @@ fn march_to_end(
 ) -> Result<(Ending, Option<Error>)> {
     let time = prepared.model.time;
     let progress = screen.progress(time.steps);
-    let mut state = start;
+    let mut last = Step::start(start);
     for number in 1..=time.steps {
+        let now = last.state().time;
         if interrupted() {
-            let sentence =
-                format!("interrupted at t = {}, after step {} of {}", seconds(state.time), number - 1, time.steps);
+            let sentence = format!("interrupted at t = {}, after step {} of {}", seconds(now), number - 1, time.steps);
             return Ok((Ending::Interrupted, Some(Error::Interrupted(sentence))));
         }
-        state = match march.advance(&state) {
-            Ok(steps) => recorder.record(number, state, steps)?,
+        last = match march.advance(&last) {
+            Ok(steps) => recorder.record(number, last, steps)?,
             Err(why) => {
-                let error = unsettled::in_step(prepared, &why, state.time, number);
+                let error = unsettled::in_step(prepared, &why, now, number);
                 return Ok((Ending::NoConvergence, Some(error)));
             }
         };

@@ -6,9 +6,10 @@ use coralpipe::model::case::Case;
 use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::msh;
 use coralpipe::model::resolve::Model;
+use coralpipe::solve::law::Scheme;
 use coralpipe::solve::march::March;
 use coralpipe::solve::start;
-use coralpipe::solve::step::Scheme;
+use coralpipe::solve::step::Step;
 use coralpipe::solve::system::{State, System};
 use nalgebra::DMatrix;
 use serde_json::Value;
@@ -119,12 +120,12 @@ pub fn march_from(start: State, model: &Model, system: &System, mut watch: impl 
     let mut march =
         March::new(system, &symbolic, Scheme::Dynamic(model.integrator), model.time.step, model.newton).unwrap();
     watch(&start);
-    let mut state = start;
+    let mut last = Step::start(start);
     for _ in 0..model.time.steps {
-        let mut steps = march.advance(&state).unwrap();
-        assert_eq!(steps.len(), 1, "a step at t = {} s was cut", state.time);
-        state = steps.remove(0).state;
-        watch(&state);
+        let mut steps = march.advance(&last).unwrap();
+        assert_eq!(steps.len(), 1, "a step at t = {} s was cut", last.state().time);
+        last = steps.remove(0);
+        watch(last.state());
     }
 }
 

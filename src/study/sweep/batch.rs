@@ -5,6 +5,7 @@ use super::job::Job;
 use crate::results::folder::Folder;
 use crate::results::summary::Timing;
 use crate::solve::march::March;
+use crate::solve::step::Step;
 use crate::solve::system::State;
 use crate::study::prepare::Prepared;
 use crate::study::recorder::{Ending, Recorder};
@@ -61,7 +62,7 @@ fn march_all<'a>(
     for (run, (state, origin)) in ready.iter().zip(starts) {
         let recorder = Recorder::start(&run.prepared, &run.folder, &state, origin, frames)?;
         running.push(Running { run, march: march.sharing_factor(&run.prepared.system), recorder, began });
-        states.push(state);
+        states.push(Step::start(state));
     }
     let steps = ready.first().map_or(0, |run| run.prepared.model.time.steps);
     for number in 1..=steps {
@@ -91,10 +92,10 @@ fn begin<'a>(job: &'a Job, lead: &Prepared) -> Result<(Ready<'a>, Start)> {
 /// One step of all; those whose joints do not settle are left behind.
 fn step<'a, 'b>(
     mut running: Vec<Running<'a, 'b>>,
-    states: Vec<State>,
+    states: Vec<Step>,
     number: usize,
     ended: &mut Ended<'b>,
-) -> Result<(Vec<Running<'a, 'b>>, Vec<State>)> {
+) -> Result<(Vec<Running<'a, 'b>>, Vec<Step>)> {
     let mut marches: Vec<&mut March> = running.iter_mut().map(|r| &mut r.march).collect();
     let advanced = March::advance_together(&mut marches, &states.iter().collect::<Vec<_>>());
     let (mut going_on, mut next) = (Vec::new(), Vec::new());
@@ -105,7 +106,7 @@ fn step<'a, 'b>(
                 going_on.push(run);
             }
             Err(why) => {
-                let why = unsettled::in_step(&run.run.prepared, &why, old.time, number);
+                let why = unsettled::in_step(&run.run.prepared, &why, old.state().time, number);
                 run.finish(Ending::NoConvergence, Some(why), ended)?;
             }
         }
