@@ -43,6 +43,13 @@ pub struct Solution {
     pub displacement_test: f64,
 }
 
+impl Solution {
+    fn new(border: Vec<f64>, branches: Branches, iterations: usize, displacement_test: f64) -> Solution {
+        let Branches { at: jumps, responses } = branches;
+        Solution { border, jumps, responses, iterations, displacement_test }
+    }
+}
+
 pub struct Contact {
     pub(super) condensate: Arc<Condensate>,
     /// no joint of D_0 is stiffer [Pa/m]; 0 where inertia lets the bodies stand by themselves
@@ -96,8 +103,10 @@ impl Contact {
             };
             // From so near Newton ends at round-off, unless it circles again.
             let nearest = self.newton(problem, &jumps).or_else(|_| {
-                let near = self.solution(problem, &problem.joints.branches(&jumps), 0, displacement_test);
-                if self.misfit(problem, &near) <= self.options.tolerance { Ok(near) } else { Err(unsettled) }
+                let near = problem.joints.branches(&jumps);
+                let border = self.border(problem, &near);
+                let fits = self.misfit(problem, &near, &border) <= self.options.tolerance;
+                if fits { Ok(Solution::new(border, near, 0, displacement_test)) } else { Err(unsettled) }
             })?;
             Ok(Solution { iterations: iterations + nearest.iterations, displacement_test, ..nearest })
         })
@@ -113,13 +122,12 @@ impl Contact {
             let (statuses, missed) = (iterate.branches.statuses(), norm(&iterate.missed));
             let settled = seen.last() == Some(&statuses);
             let tolerance = if settled { self.options.tolerance } else { ROUND_OFF };
-            if iterate.is_answered()
-                && missed <= tolerance * self.scale(problem, &iterate.tractions, missed / tolerance)
-            {
-                let displacement_test = ratio(correction, distance(&iterate.jumps, problem.last));
-                let solution = self.solution(problem, &iterate.branches, iterations, displacement_test);
-                if self.misfit(problem, &solution) <= self.options.tolerance {
-                    return Ok(solution);
+            let enough = missed / tolerance;
+            if iterate.is_answered() && (missed == 0. || enough <= self.scale(problem, &iterate.tractions, enough)) {
+                let border = self.border(problem, &iterate.branches);
+                if self.misfit(problem, &iterate.branches, &border) <= self.options.tolerance {
+                    let displacement_test = ratio(correction, distance(&iterate.jumps, problem.last));
+                    return Ok(Solution::new(border, iterate.branches, iterations, displacement_test));
                 }
             }
             let stands_still = settled && missed >= missed_before / 2.;
@@ -172,42 +180,37 @@ impl Contact {
     fn after(&self, joints: &Joints, before: &Iterate, tangents: &[Matrix2<f64>], step: &[f64]) -> Iterate {
         let jumps: Vec<f64> = before.jumps.iter().zip(step).map(|(j, d)| j - d).collect();
         let branches = joints.branches(&jumps);
-        let off_its_line = |(i, point): (usize, &JointPoint)| {
+        let on_its_line = |i: usize| {
             let (old, new) = (&before.branches.responses[i], &branches.responses[i]);
-            if self.stabilisation() == 0. && old.status == new.status && old.tangent == new.tangent {
-                return Vector2::zeros();
-            }
-            let slope = tangents[i] + self.reference(&point.law);
-            new.traction - before.tractions[i] + slope * joints.interface.local(point, step)
+            self.stabilisation() == 0. && old.status == new.status && old.tangent == new.tangent
         };
-        let missed = joints.interface.forces(joints.interface.points.iter().enumerate().map(off_its_line));
+        let off_its_line = |(i, point): (usize, &JointPoint)| {
+            let slope = tangents[i] + self.reference(&point.law);
+            let on_line = before.tractions[i] - slope * joints.interface.local(point, step);
+            (i, branches.responses[i].traction - on_line)
+        };
+        let elsewhere = joints.interface.points.iter().enumerate().filter(|(i, _)| !on_its_line(*i));
+        let missed = joints.interface.forces_at(elsewhere.map(off_its_line));
         Iterate { missed, tractions: branches.responses.iter().map(|r| r.traction).collect(), jumps, branches }
     }
 
-    /// The displacements that the joints' forces make.
-    fn solution(
-        &self,
-        Problem { joints, b, .. }: &Problem,
-        Branches { at, responses }: &Branches,
-        iterations: usize,
-        displacement_test: f64,
-    ) -> Solution {
+    /// The displacements of the border that the joints' forces make [m].
+    fn border(&self, Problem { joints, b, .. }: &Problem, Branches { at, responses }: &Branches) -> Vec<f64> {
         let interface = joints.interface;
         let points = interface.points.iter().zip(responses);
         let beyond = points.map(|(p, r)| r.traction - self.reference(&p.law) * interface.local(p, at));
-        let border = self.condensate.displacements(&self.condensate.pulled(b, &interface.forces(beyond)));
-        Solution { border, jumps: at.clone(), responses: responses.clone(), iterations, displacement_test }
+        self.condensate.displacements(&self.condensate.pulled(b, &interface.forces(beyond)))
     }
 
     /// How far the jumps are from those of the displacements that the joints' forces make, as the force that would bring
     /// them there over the largest force; 0 where round-off leaves them no more digits.
-    fn misfit(&self, problem: &Problem, solution: &Solution) -> f64 {
-        let made = self.condensate.jumps(&solution.border);
-        let apart: Vec<f64> = made.iter().zip(&solution.jumps).map(|(made, jump)| made - jump).collect();
-        if norm(&apart) <= ROUND_OFF * norm(&solution.border) {
+    fn misfit(&self, problem: &Problem, Branches { at, responses }: &Branches, border: &[f64]) -> f64 {
+        let made = self.condensate.jumps(border);
+        let apart: Vec<f64> = made.iter().zip(at).map(|(made, jump)| made - jump).collect();
+        if norm(&apart) <= ROUND_OFF * norm(border) {
             return 0.;
         }
-        let tractions: Vec<Vector2<f64>> = solution.responses.iter().map(|r| r.traction).collect();
+        let tractions: Vec<Vector2<f64>> = responses.iter().map(|r| r.traction).collect();
         let at_most = self.condensate.norm * norm(&apart);
         let scale = self.scale(problem, &tractions, at_most / self.options.tolerance);
         let least = at_most / scale;
@@ -224,7 +227,7 @@ impl Contact {
         if !left.is_finite() {
             return Unsettled::Overflow(largest.map_or(Place::Matrix, Place::JointPoint));
         }
-        let relative = left.max(self.misfit(problem, &self.solution(problem, branches, 0, 0.)));
+        let relative = left.max(self.misfit(problem, branches, &self.border(problem, branches)));
         let last = branches.statuses();
         match before.map(|before| differing(before, &last)) {
             Some(changing) if !changing.is_empty() => Unsettled::Statuses { changing, last },

@@ -101,8 +101,14 @@ impl Interface {
 
     /// r(j) [N] of the points' tractions.
     pub fn forces(&self, tractions: impl Iterator<Item = Vector2<f64>>) -> Vec<f64> {
+        self.forces_at(tractions.enumerate())
+    }
+
+    /// The same of the tractions (number of the point, traction) that some points have.
+    pub fn forces_at(&self, tractions: impl Iterator<Item = (usize, Vector2<f64>)>) -> Vec<f64> {
         let mut r = vec![0.; self.count];
-        for (point, traction) in self.points.iter().zip(tractions) {
+        for (number, traction) in tractions {
+            let point = &self.points[number];
             point.seen.iter().for_each(|(place, column)| r[*place] += column.dot(&traction) * point.area);
         }
         r

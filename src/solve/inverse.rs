@@ -4,8 +4,9 @@
 //! where many do, the inverse itself. So a change of status costs by what changed, not by the number of joints.
 
 use super::interface::Interface;
+use crate::sparse::columns::add_columns;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
-use faer::{Accum, ColRef, Mat, Par};
+use faer::{Accum, Mat, Par};
 use nalgebra::Matrix2;
 
 /// Share of the unknowns that may differ before the inverse is corrected: a solve then still costs about one product.
@@ -86,24 +87,17 @@ impl Kept {
 
     /// R - R E W E'R.
     fn corrected(self, change: Change) -> Kept {
-        let (mut inverse, n) = (self.inverse, change.places.len());
-        let rows = Mat::from_fn(n, inverse.ncols(), |k, j| inverse[(change.places[k], j)]);
-        let columns = Mat::from_fn(inverse.nrows(), n, |i, k| inverse[(i, change.places[k])]);
-        let weighted = &change.weights * rows;
+        let mut inverse = self.inverse;
+        let all: Vec<usize> = (0..inverse.nrows()).collect();
+        let weighted = &change.weights * picked(&inverse, &change.places, &all);
+        let columns = picked(&inverse, &all, &change.places);
         faer::linalg::matmul::matmul(&mut inverse, Accum::Add, &columns, &weighted, -1., Par::Seq);
         Kept { tangents: change.to, inverse, fresh: false }
     }
 
     /// R f.
     fn times(&self, f: &[f64]) -> Vec<f64> {
-        if f.iter().filter(|f| **f != 0.).count() > f.len() / 4 {
-            return dense_times(&self.inverse, f);
-        }
-        let mut x = vec![0.; f.len()];
-        for (j, &f_j) in f.iter().enumerate().filter(|(_, f_j)| **f_j != 0.) {
-            add_column(&mut x, f_j, &self.inverse, j);
-        }
-        x
+        dense_times(&self.inverse, f)
     }
 }
 
@@ -136,7 +130,7 @@ impl Change {
         for ((point, from), to) in points.filter(|((_, from), to)| from != to) {
             interface.tangent(point, &(to - from), |i, j, value| matrix[(at(i), at(j))] += value);
         }
-        let seen = Mat::from_fn(n, n, |i, j| kept.inverse[(places[i], places[j])]);
+        let seen = picked(&kept.inverse, &places, &places);
         let system = Mat::<f64>::identity(n, n) + &matrix * seen;
         Change { to: to.to_vec(), weights: system.partial_piv_lu().solve(matrix), places }
     }
@@ -144,21 +138,28 @@ impl Change {
     /// x - R E W E'x.
     fn correct(&self, x: &mut [f64], inverse: &Mat<f64>) {
         let seen: Vec<f64> = self.places.iter().map(|&i| x[i]).collect();
-        for (weight, &j) in dense_times(&self.weights, &seen).iter().zip(&self.places) {
-            add_column(x, -weight, inverse, j);
-        }
+        let weights = dense_times(&self.weights, &seen);
+        let weights: Vec<(usize, f64)> = self.places.iter().zip(&weights).map(|(&j, weight)| (j, -weight)).collect();
+        add_columns(x, inverse, &weights);
     }
 }
 
-/// A x.
-pub fn dense_times(a: &Mat<f64>, x: &[f64]) -> Vec<f64> {
-    let product = a * ColRef::from_slice(x);
-    product.iter().copied().collect()
+/// Some rows and columns of A.
+fn picked(a: &Mat<f64>, rows: &[usize], columns: &[usize]) -> Mat<f64> {
+    let mut picked = Mat::zeros(rows.len(), columns.len());
+    for (to, &from) in columns.iter().enumerate() {
+        let column = a.col_as_slice(from);
+        picked.col_as_slice_mut(to).iter_mut().zip(rows).for_each(|(to, &row)| *to = column[row]);
+    }
+    picked
 }
 
-/// x + factor A e_j.
-fn add_column(x: &mut [f64], factor: f64, a: &Mat<f64>, j: usize) {
-    x.iter_mut().zip(a.col_as_slice(j)).for_each(|(x, a)| *x += factor * a);
+/// A x. Zeros in x cost nothing.
+pub fn dense_times(a: &Mat<f64>, x: &[f64]) -> Vec<f64> {
+    let entries: Vec<(usize, f64)> = x.iter().copied().enumerate().filter(|(_, x)| *x != 0.).collect();
+    let mut product = vec![0.; a.nrows()];
+    add_columns(&mut product, a, &entries);
+    product
 }
 
 #[cfg(test)]

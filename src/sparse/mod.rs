@@ -2,6 +2,7 @@
 //!
 //! Matrices are `sprs` CSR with both triangles stored and sorted columns, so that rows and columns read the same.
 
+pub mod columns;
 pub mod factor;
 pub mod interleaved;
 pub mod lanczos;
