@@ -111,7 +111,7 @@ impl<'a> March<'a> {
         old: &Step,
     ) -> Result<Vec<Step>, Unsettled> {
         let system = self.system;
-        match whole.and_then(|step| finite(system, step)) {
+        match whole {
             tried if level == MAX_CUTS => Ok(vec![tried?]),
             Ok(step) if self.budget.as_mut().is_none_or(|b| b.allows(system, old.state(), &step)) => Ok(vec![step]),
             _ => {
@@ -123,13 +123,4 @@ impl<'a> March<'a> {
             }
         }
     }
-}
-
-fn finite(system: &System, step: Step) -> Result<Step, Unsettled> {
-    if step.state().is_finite() {
-        return Ok(step);
-    }
-    let State { q, v, a, .. } = step.state();
-    let spoilt = |x: &Vec<f64>| system.unknowns.at_nodes(x).iter().position(|u| !u.iter().all(|u| u.is_finite()));
-    Err(Unsettled::Overflow([q, v, a].into_iter().find_map(spoilt).map_or(Place::Matrix, Place::Node)))
 }

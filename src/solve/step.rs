@@ -7,12 +7,12 @@ use super::free_field::Column;
 use super::interface::JointState;
 use super::joints::Joints;
 use super::law::{Law, Scheme};
-use super::system::{State, System};
-use super::unsettled::Unsettled;
+use super::system::{State, System, is_finite};
+use super::unsettled::{Place, Unsettled};
 use crate::model::case::Newton;
 use crate::sparse::lanes::{apart, side_by_side};
 use crate::sparse::vector::add;
-use crate::sparse::{Factors, Found, MOST_LANES, NotPositiveDefinite, Symbolic, with_lanes_for};
+use crate::sparse::{Factors, Found, Lanes, MOST_LANES, NotPositiveDefinite, Symbolic, with_lanes_for};
 
 /// Steps of one length, their matrix factored.
 pub struct Stepper {
@@ -154,7 +154,7 @@ fn step_lanes<const K: usize>(
         })
         .collect();
     steppers[0].condensed.factor().expand_lanes(&mut x);
-    let (motions, factors) = moved::<K>(law, &x, old, systems[0].unknowns.with_jumps());
+    let (motions, factors) = moved(law, &x, old, systems[0].unknowns.with_jumps());
     let Found { forms, sum } = systems[0].interleaved.read(&factors);
     let onward = apart(&sum, old.len(), 0);
     let [strain, kinetic, drained] = forms;
@@ -162,9 +162,10 @@ fn step_lanes<const K: usize>(
     stepped
         .map(|((((k, settled), free_field), motion), forces)| {
             let Solution { jumps, responses, iterations, displacement_test, .. } = settled?;
+            let Motion { finite: true, vectors } = motion else { return Err(overflow(systems[k], &motion.vectors)) };
             let joints = responses.iter().map(JointState::from).collect();
             Ok(Step {
-                state: with_jumps(systems[k], old[k].state.time + law.dt(), motion, &jumps, joints, free_field?),
+                state: with_jumps(systems[k], old[k].state.time + law.dt(), vectors, &jumps, joints, free_field?),
                 iterations,
                 displacement_test,
                 forms: Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] },
@@ -210,15 +211,19 @@ fn with_lasting(system: &System, law: Law, mut forces: Vec<f64>) -> Onward {
 /// Unknowns that are turned from lanes into cases at once: they stay in the nearest cache.
 const TILE: usize = 64;
 
-/// The motion (u, v, a) of each case after a step to the displacements x, with `room` in each vector, and what the matrices
-/// are multiplied by.
-fn moved<const K: usize>(
-    law: Law,
-    x: &[[f64; K]],
-    old: &[&Step],
-    room: usize,
-) -> (Vec<[Vec<f64>; 3]>, Vec<Factors<K>>) {
-    let mut motions: Vec<[Vec<f64>; 3]> = old.iter().map(|_| [0; 3].map(|_| Vec::with_capacity(room))).collect();
+/// The motion of one case.
+struct Motion {
+    /// u, v, a
+    vectors: [Vec<f64>; 3],
+    /// as [`is_finite`] says
+    finite: bool,
+}
+
+/// The motion of each case after a step to the displacements x, with `room` in each vector, and what the matrices are
+/// multiplied by.
+fn moved<const K: usize>(law: Law, x: &Lanes<K>, old: &[&Step], room: usize) -> (Vec<Motion>, Vec<Factors<K>>) {
+    let with_room = |_| Motion { vectors: [0; 3].map(|_| Vec::with_capacity(room)), finite: true };
+    let mut motions: Vec<Motion> = old.iter().map(with_room).collect();
     let mut factors = vec![Factors::ZERO; x.len() + 1];
     for start in (0..x.len()).step_by(TILE) {
         let tile = start..x.len().min(start + TILE);
@@ -230,7 +235,8 @@ fn moved<const K: usize>(
                 let (forms, sum) = (Forms::factors(now, v), law.onward(now));
                 (0..3).for_each(|m| factors.forms[m][k] = forms[m]);
                 (0..2).for_each(|m| factors.sum[m][k] = sum[m]);
-                (0..3).for_each(|m| motion[m].push(now[m]));
+                (0..3).for_each(|m| motion.vectors[m].push(now[m]));
+                motion.finite &= now.into_iter().all(is_finite);
             }
         }
     }
@@ -251,4 +257,10 @@ fn with_jumps(
     v.extend(system.unknowns.differences(&v));
     a.extend(system.unknowns.differences(&a));
     State { time, q, v, a, joints, free_field }
+}
+
+/// Where the numbers of a motion have become too large.
+fn overflow(system: &System, vectors: &[Vec<f64>; 3]) -> Unsettled {
+    let spoilt = |x: &Vec<f64>| system.unknowns.at_nodes(x).iter().position(|u| !u.iter().all(|&u| is_finite(u)));
+    Unsettled::Overflow(vectors.iter().find_map(spoilt).map_or(Place::Matrix, Place::Node))
 }
