@@ -12,6 +12,7 @@ pub mod joints;
 pub mod law;
 pub mod march;
 pub mod modes;
+mod motion;
 pub mod newmark;
 pub mod start;
 pub mod step;

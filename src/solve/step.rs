@@ -7,12 +7,13 @@ use super::free_field::Column;
 use super::interface::JointState;
 use super::joints::Joints;
 use super::law::{Law, Scheme};
-use super::system::{State, System, is_finite};
-use super::unsettled::{Place, Unsettled};
+use super::motion::moved;
+use super::system::{State, System};
+use super::unsettled::Unsettled;
 use crate::model::case::Newton;
 use crate::sparse::lanes::{apart, side_by_side};
 use crate::sparse::vector::add;
-use crate::sparse::{Factors, Found, Lanes, MOST_LANES, NotPositiveDefinite, Symbolic, with_lanes_for};
+use crate::sparse::{Factors, Found, MOST_LANES, NotPositiveDefinite, Symbolic, with_lanes_for};
 
 /// Steps of one length, their matrix factored.
 pub struct Stepper {
@@ -154,18 +155,19 @@ fn step_lanes<const K: usize>(
         })
         .collect();
     steppers[0].condensed.factor().expand_lanes(&mut x);
-    let (motions, factors) = moved(law, &x, old, systems[0].unknowns.with_jumps());
+    let states: Vec<&State> = old.iter().map(|old| &old.state).collect();
+    let (motions, factors) = moved(law, &x, &states, systems[0].unknowns.with_jumps());
     let Found { forms, sum } = systems[0].interleaved.read(&factors);
-    let onward = apart(&sum, old.len(), 0);
+    let onward = apart(&sum, old.len());
     let [strain, kinetic, drained] = forms;
     let stepped = cases.zip(settled).zip(free_fields).zip(motions).zip(onward);
     stepped
         .map(|((((k, settled), free_field), motion), forces)| {
             let Solution { jumps, responses, iterations, displacement_test, .. } = settled?;
-            let Motion { finite: true, vectors } = motion else { return Err(overflow(systems[k], &motion.vectors)) };
+            let [q, v, a] = motion.with_jumps(systems[k], &jumps)?;
             let joints = responses.iter().map(JointState::from).collect();
             Ok(Step {
-                state: with_jumps(systems[k], old[k].state.time + law.dt(), vectors, &jumps, joints, free_field?),
+                state: State { time: old[k].state.time + law.dt(), q, v, a, joints, free_field: free_field? },
                 iterations,
                 displacement_test,
                 forms: Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] },
@@ -206,61 +208,4 @@ fn onward_of(system: &System, law: Law, State { q, v, a, .. }: &State) -> Onward
 fn with_lasting(system: &System, law: Law, mut forces: Vec<f64>) -> Onward {
     system.lasting_load().iter().for_each(|f| add(&mut forces, 1., f));
     Onward { law, forces }
-}
-
-/// Unknowns that are turned from lanes into cases at once: they stay in the nearest cache.
-const TILE: usize = 64;
-
-/// The motion of one case.
-struct Motion {
-    /// u, v, a
-    vectors: [Vec<f64>; 3],
-    /// as [`is_finite`] says
-    finite: bool,
-}
-
-/// The motion of each case after a step to the displacements x, with `room` in each vector, and what the matrices are
-/// multiplied by.
-fn moved<const K: usize>(law: Law, x: &Lanes<K>, old: &[&Step], room: usize) -> (Vec<Motion>, Vec<Factors<K>>) {
-    let with_room = |_| Motion { vectors: [0; 3].map(|_| Vec::with_capacity(room)), finite: true };
-    let mut motions: Vec<Motion> = old.iter().map(with_room).collect();
-    let mut factors = vec![Factors::ZERO; x.len() + 1];
-    for start in (0..x.len()).step_by(TILE) {
-        let tile = start..x.len().min(start + TILE);
-        for (k, motion) in motions.iter_mut().enumerate() {
-            let State { q, v, a, .. } = &old[k].state;
-            let before = q[tile.clone()].iter().zip(&v[tile.clone()]).zip(&a[tile.clone()]);
-            for ((x, factors), ((&u, &v), &a)) in x[tile.clone()].iter().zip(&mut factors[tile.clone()]).zip(before) {
-                let now = law.follow(x[k], [u, v, a]);
-                let (forms, sum) = (Forms::factors(now, v), law.onward(now));
-                (0..3).for_each(|m| factors.forms[m][k] = forms[m]);
-                (0..2).for_each(|m| factors.sum[m][k] = sum[m]);
-                (0..3).for_each(|m| motion.vectors[m].push(now[m]));
-                motion.finite &= now.into_iter().all(is_finite);
-            }
-        }
-    }
-    (motions, factors)
-}
-
-/// Velocities and accelerations of the jumps are those of their sides: going on by themselves they would drift off by the
-/// round-off of every step.
-fn with_jumps(
-    system: &System,
-    time: f64,
-    [mut q, mut v, mut a]: [Vec<f64>; 3],
-    jumps: &[f64],
-    joints: Vec<JointState>,
-    free_field: Vec<State>,
-) -> State {
-    q.extend(jumps);
-    v.extend(system.unknowns.differences(&v));
-    a.extend(system.unknowns.differences(&a));
-    State { time, q, v, a, joints, free_field }
-}
-
-/// Where the numbers of a motion have become too large.
-fn overflow(system: &System, vectors: &[Vec<f64>; 3]) -> Unsettled {
-    let spoilt = |x: &Vec<f64>| system.unknowns.at_nodes(x).iter().position(|u| !u.iter().all(|&u| is_finite(u)));
-    Unsettled::Overflow(vectors.iter().find_map(spoilt).map_or(Place::Matrix, Place::Node))
 }

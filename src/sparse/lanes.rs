@@ -27,9 +27,9 @@ pub const MOST_LANES: usize = 8;
 /// Rows that are turned at once: they stay in the nearest cache while one vector after the other is.
 const TILE: usize = 64;
 
-/// The first `of` lanes, each by itself, with room for `more` entries.
-pub fn apart<const K: usize>(x: &Lanes<K>, of: usize, more: usize) -> Vec<Vec<f64>> {
-    let mut vectors: Vec<Vec<f64>> = (0..of).map(|_| Vec::with_capacity(x.len() + more)).collect();
+/// The first `of` lanes, each by itself.
+pub fn apart<const K: usize>(x: &Lanes<K>, of: usize) -> Vec<Vec<f64>> {
+    let mut vectors: Vec<Vec<f64>> = (0..of).map(|_| Vec::with_capacity(x.len())).collect();
     for tile in x.chunks(TILE) {
         for (k, vector) in vectors.iter_mut().enumerate() {
             vector.extend(tile.iter().map(|x| x[k]));

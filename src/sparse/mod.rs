@@ -14,7 +14,7 @@ pub mod pivots;
 pub mod sweeps;
 pub mod symmetric;
 pub mod vector;
-mod widest;
+pub(crate) mod widest;
 
 pub use factor::{Factor, Symbolic};
 pub use interleaved::{Factors, Found, Interleaved};
