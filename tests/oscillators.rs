@@ -2,12 +2,15 @@
 
 mod support;
 
+use coralpipe::model::case::{Integrator, Newmark};
 use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::resolve::Model;
 use coralpipe::solve::energy::{Forms, Ledger};
 use coralpipe::solve::modes::{natural_modes, rayleigh};
+use coralpipe::solve::system::Rayleigh;
 use coralpipe::solve::system::{State, System};
 use coralpipe::sparse::multiply;
+use coralpipe::sparse::vector::{add, norm};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use support::{Drawing, dot, root};
@@ -156,4 +159,32 @@ fn the_average_acceleration_balances_energy_in_every_step() {
     }
     println!("energy: {worst:.1e} in a step, ledger {:.1e}", ledger.max_relative_error());
     assert!(worst < 1e-12 && ledger.max_relative_error() < 1e-10, "{worst:.1e} {:.1e}", ledger.max_relative_error());
+}
+
+/// M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t = (1 + alpha) f - alpha f_t (Hilber, Hughes and Taylor 1977) in every
+/// step under a load that changes and a weight that does not.
+#[test]
+fn a_step_of_hilber_hughes_and_taylor_satisfies_their_equation() {
+    let alpha = -0.2;
+    let (mut model, _) = oscillator(0.05, 20, json!({ "law": "linear", "peak": 1, "duration": 0.5 }));
+    model.integrator = Integrator { newmark: Newmark { alpha: 0.36, delta: 0.7 }, hht: alpha };
+    model.gravity = 9.81;
+    let system = System::new(&model).unwrap().with_damping(Rayleigh { alpha: 0.3, beta: 0.02 }, false);
+    let mut states = Vec::new();
+    support::march_from(State::at_rest(&system), &model, &system, |state| states.push(state.clone()));
+    // f - C v - K u
+    let rest = |state: &State| {
+        let mut rest = system.load(state.time);
+        add(&mut rest, -1., &multiply(&system.damping, &state.v));
+        add(&mut rest, -1., &multiply(&system.stiffness, &state.q));
+        rest
+    };
+    for pair in states.windows(2) {
+        let mut missed = multiply(&system.mass, &pair[1].a);
+        let largest = norm(&missed);
+        add(&mut missed, -(1. + alpha), &rest(&pair[1]));
+        add(&mut missed, alpha, &rest(&pair[0]));
+        // a is a small difference of displacements: of its sixteen digits some are lost
+        assert!(norm(&missed) < 1e-12 * largest, "{:e} of {largest:e} N", norm(&missed));
+    }
 }

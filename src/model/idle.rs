@@ -42,12 +42,12 @@ pub fn nothing_acts(model: &Model) -> bool {
     model.loads.is_empty() && model.gravity == 0. && still(displacement) && still(velocity)
 }
 
-/// A load that is zero, or begins when all is over.
+/// A load that is zero, or begins when all is over; one that begins at the end acts in the last step.
 fn never_acts(load: &Load, end: f64) -> Option<String> {
     let first = load.front.as_ref().map_or(load.pulse.start(), |sweep| sweep.onset()[0]);
     let because = match load.pulse.is_zero() {
         true => "it is zero at all times".into(),
-        false if first >= end => {
+        false if first > end => {
             format!("it begins at {}, and the calculation ends at {}", seconds(first), seconds(end))
         }
         false => return None,

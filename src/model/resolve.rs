@@ -160,6 +160,11 @@ impl Model {
         }
     }
 
+    /// Whether nothing but round-off is left in the energy ledger: no numerical damping, no imbalance at the start.
+    pub fn closes_its_ledger(&self) -> bool {
+        self.analysis == Analysis::Dynamic && self.integrator == Integrator::default() && self.start != Start::Rest
+    }
+
     /// Every face with its material.
     pub fn faces(&self) -> impl Iterator<Item = (usize, &Material)> {
         let cells = self.material_of.iter().enumerate();

@@ -6,6 +6,7 @@ use crate::model::probes::NodeProbe;
 use crate::solve::system::State;
 use crate::solve::unknowns::Unknowns;
 use serde::Serialize;
+use std::fmt::Write as _;
 use std::path::Path;
 
 /// Columns of a probe, in this order: displacement [m], velocity [m/s], acceleration [m/s^2].
@@ -38,13 +39,14 @@ impl Histories {
     /// `origin`: the unknowns that displacements are counted from.
     pub fn record(&mut self, unknowns: &Unknowns, state: &State, origin: &[f64]) {
         let line = &mut self.lines.waiting;
-        *line += &format!("{:e}", state.time);
+        // writing to memory does not fail
+        let _ = write!(line, "{:e}", state.time);
         for (probe, peaks) in self.probes.iter().zip(&mut self.peaks) {
             let mut motion = [&state.q, &state.v, &state.a].map(|x| unknowns.at_node(x, probe.node));
             let at_origin = unknowns.at_node(origin, probe.node);
             motion[0] = [motion[0][0] - at_origin[0], motion[0][1] - at_origin[1]];
             for (value, peak) in motion.as_flattened().iter().zip(peaks) {
-                *line += &format!(",{value:e}");
+                let _ = write!(line, ",{value:e}");
                 if value.abs() > peak.value.abs() {
                     *peak = Peak { value: *value, time: state.time };
                 }

@@ -122,8 +122,8 @@ impl Contact {
             let (statuses, missed) = (iterate.branches.statuses(), norm(&iterate.missed));
             let settled = seen.last() == Some(&statuses);
             let tolerance = if settled { self.options.tolerance } else { ROUND_OFF };
-            let enough = missed / tolerance;
-            if iterate.is_answered() && (missed == 0. || enough <= self.scale(problem, &iterate.tractions, enough)) {
+            let least = missed / tolerance;
+            if iterate.is_answered() && (missed == 0. || least <= self.scale(problem, &iterate.tractions, least)) {
                 let border = self.border(problem, &iterate.branches);
                 if self.misfit(problem, &iterate.branches, &border) <= self.options.tolerance {
                     let displacement_test = ratio(correction, distance(&iterate.jumps, problem.last));

@@ -10,6 +10,7 @@
 use super::assembly::{corners, dashpot_block};
 use super::system::{Rayleigh, State, System};
 use super::unknowns::Unknowns;
+use super::unsettled::{Place, Unsettled};
 use crate::Result;
 use crate::model::absorbing::Absorber;
 use crate::model::free_field::FreeField;
@@ -89,6 +90,14 @@ impl Column {
     pub fn inertia(&self, state: &State) -> impl Iterator<Item = (usize, f64)> {
         let factor = self.system.rayleigh.beta / 2.;
         self.unknowns.iter().copied().zip(multiply(&self.drag, &state.a).into_iter().map(move |f| factor * f))
+    }
+
+    /// The same of the side's nodes: the column's are not the model's.
+    pub fn on_side(&self, why: Unsettled) -> Unsettled {
+        match why {
+            Unsettled::Overflow(Place::Node(node)) => Unsettled::Overflow(Place::Node(self.origin[node])),
+            other => other,
+        }
     }
 
     /// The up and down part of the side's motion, at the column's nodes.

@@ -1,8 +1,8 @@
-//! How a state follows from the last one: Newmark's method, its variant of Hilber, Hughes and Taylor (1977), or equilibrium
-//! without inertia.
+//! How a state follows from the last one: Newmark's method, its variant of Hilber, Hughes and Taylor (1977), or
+//! equilibrium without inertia.
 //!
-//! M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t + r(j) = (1 + alpha) f - alpha f_t, everything without index at the new
-//! time, joint forces too; alpha = 0 is Newmark's method. K* = a0 M + (1 + alpha)(a1 C + K).
+//! M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t + r(j) = (1 + alpha) f - alpha f_t, everything without index at the
+//! new time, joint forces too; alpha = 0 is Newmark's method. K* = a0 M + (1 + alpha)(a1 C + K).
 
 use super::joints::JointDamping;
 use super::newmark::Constants;
@@ -54,7 +54,7 @@ impl Law {
         }
     }
 
-    /// (u, v, a) of an unknown from its new displacement and its (u, v, a) before.
+    /// (u [m], v [m/s], a [m/s^2]) of an unknown from its new displacement and what they were before.
     #[inline(always)]
     pub fn follow(&self, u: f64, before: [f64; 3]) -> [f64; 3] {
         match self {
@@ -83,15 +83,14 @@ impl Law {
     pub fn forces(&self, system: &System, old: &State, free_field: &[State]) -> Vec<(usize, f64)> {
         let new_time = old.time + self.dt();
         let Law::Dynamic(Dynamic { hht, .. }) = *self else { return system.passing_load(new_time) };
-        let weighted = |weight: f64, forces: Vec<(usize, f64)>| forces.into_iter().map(move |(i, f)| (i, weight * f));
         let at_new_time = system.passing_load(new_time).into_iter().chain(system.free_field_force(free_field));
-        let mut forces: Vec<(usize, f64)> = weighted(1. + hht, at_new_time.collect()).collect();
+        let mut forces: Vec<(usize, f64)> = weighted(1. + hht, at_new_time).collect();
         forces.extend(system.free_field_inertia(free_field));
         if hht != 0. {
             forces.extend(weighted(-hht, system.passing_load(old.time)));
             forces.extend(weighted(-hht, system.free_field_force(&old.free_field)));
             let elastic = multiply(&system.stiffness, system.displacements(&old.q));
-            forces.extend(weighted(hht, elastic.into_iter().enumerate().collect()));
+            forces.extend(weighted(hht, elastic.into_iter().enumerate()));
         }
         forces
     }
@@ -107,6 +106,7 @@ impl Law {
         }
     }
 
+    /// The joints' own damping in a step from the old state, where the case asks for it.
     pub fn joint_damping(&self, system: &System, old: &State) -> Option<JointDamping> {
         let Law::Dynamic(Dynamic { constants, .. }) = *self else { return None };
         let beta = system.joint_beta?;
@@ -116,8 +116,12 @@ impl Law {
     }
 }
 
+fn weighted(weight: f64, forces: impl IntoIterator<Item = (usize, f64)>) -> impl Iterator<Item = (usize, f64)> {
+    forces.into_iter().map(move |(i, f)| (i, weight * f))
+}
+
 impl Dynamic {
-    /// K*.
+    /// K* [N/m].
     pub fn matrix(&self, system: &System) -> CsMat<f64> {
         let Dynamic { constants, hht } = self;
         combine(&[

@@ -1,9 +1,10 @@
-//! Where a step takes the unknowns: of all cases at once, since what the matrices are multiplied by next comes from it.
+//! Where a step takes the unknowns of all cases, and what the matrices are multiplied by there.
 
 use super::energy::Forms;
 use super::law::Law;
 use super::system::{State, System, is_finite};
 use super::unsettled::{Place, Unsettled};
+use crate::sparse::lanes::TILE;
 use crate::sparse::widest::{Kernel, on_widest};
 use crate::sparse::{Factors, Lanes};
 
@@ -23,10 +24,9 @@ impl Motion {
     pub fn with_jumps(self, system: &System, jumps: &[f64]) -> Result<[Vec<f64>; 3], Unsettled> {
         let [mut q, mut v, mut a] = self.vectors;
         if !self.finite {
-            let spoilt =
-                |x: &Vec<f64>| system.unknowns.at_nodes(x).iter().position(|u| !u.iter().all(|&u| is_finite(u)));
-            let node = [&q, &v, &a].into_iter().find_map(spoilt);
-            return Err(Unsettled::Overflow(node.map_or(Place::Matrix, Place::Node)));
+            let spoilt = |x: &Vec<f64>| x.iter().position(|&x| !is_finite(x));
+            let unknown = [&q, &v, &a].into_iter().find_map(spoilt).expect("some number is too large");
+            return Err(Unsettled::Overflow(Place::Node(system.unknowns.node_of(unknown))));
         }
         q.extend(jumps);
         v.extend(system.unknowns.differences(&v));
@@ -35,11 +35,8 @@ impl Motion {
     }
 }
 
-/// Unknowns that are turned from cases into lanes and back at once: they stay in the nearest cache.
-const TILE: usize = 64;
-
-/// The motion of each case after a step from its `old` state to the displacements x, with `room` in each vector, and what the
-/// matrices are multiplied by: a row for each unknown and a last one that stands for nothing.
+/// The motion of each case after a step from its `old` state to the displacements x, with `room` in each vector, and what
+/// the matrices are multiplied by: a row for each unknown and a last one that stands for nothing.
 pub fn moved<const K: usize>(law: Law, x: &Lanes<K>, old: &[&State], room: usize) -> (Vec<Motion>, Vec<Factors<K>>) {
     let with_room = |_| Motion { vectors: [0; 3].map(|_| Vec::with_capacity(room)), finite: true };
     let mut motions: Vec<Motion> = old.iter().map(with_room).collect();
@@ -49,14 +46,14 @@ pub fn moved<const K: usize>(law: Law, x: &Lanes<K>, old: &[&State], room: usize
         let start = TILE * number;
         for (k, State { q, v, a, .. }) in old.iter().enumerate() {
             let [q, v, a] = [q, v, a].map(|of_all| &of_all[start..][..x.len()]);
-            for (((tile, q), v), a) in tile.iter_mut().zip(q).zip(v).zip(a) {
-                (tile[0][k], tile[1][k], tile[2][k]) = (*q, *v, *a);
+            for (row, i) in tile.iter_mut().zip(0..x.len()) {
+                (row[0][k], row[1][k], row[2][k]) = (q[i], v[i], a[i]);
             }
         }
         on_widest(Follow { law, x, motions: &mut tile, factors: &mut factors });
         for (k, Motion { vectors, finite }) in motions.iter_mut().enumerate() {
             for (m, vector) in vectors.iter_mut().enumerate() {
-                vector.extend(tile[..x.len()].iter().map(|tile| tile[m][k]));
+                vector.extend(tile[..x.len()].iter().map(|row| row[m][k]));
                 // all of them: a loop that may stop in the middle takes one at a time
                 *finite &= vector[start..].iter().fold(true, |finite, &x| finite & is_finite(x));
             }
@@ -94,10 +91,46 @@ fn follow<const K: usize>(law: Law, u: &[f64; K], before: &[[f64; K]; 3]) -> ([[
     for k in 0..K {
         let v_before = before[1][k];
         let motion = law.follow(u[k], [before[0][k], v_before, before[2][k]]);
-        let (forms, sum) = (Forms::factors(motion, v_before), law.onward(motion));
+        let (forms, sum) = (Forms::factors(motion[0], motion[1], v_before), law.onward(motion));
         (0..3).for_each(|m| motions[m][k] = motion[m]);
         (0..3).for_each(|m| factors.forms[m][k] = forms[m]);
         (0..2).for_each(|m| factors.sum[m][k] = sum[m]);
     }
     (motions, factors)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::case::Integrator;
+    use crate::solve::law::Scheme;
+
+    /// Cases of unlike motions in all lanes, more unknowns than a tile, and in one case a velocity before that no energy
+    /// can be made of.
+    #[test]
+    fn each_case_moves_by_itself_and_knows_what_is_too_large() {
+        const COUNT: usize = 2 * TILE + 3;
+        let law = Law::new(Scheme::Dynamic(Integrator::default()), 0.1);
+        let motion = |k: usize, i: usize| [1., 2., 3.].map(|factor| factor * (i + 7 * k) as f64);
+        let mut old: Vec<State> = (0..3)
+            .map(|k| {
+                let [q, v, a] = [0, 1, 2].map(|m| (0..COUNT).map(|i| motion(k, i)[m]).collect());
+                State { time: 0., q, v, a, joints: vec![], free_field: vec![] }
+            })
+            .collect();
+        old[1].v[COUNT - 2] = 1e141;
+        let x: Vec<[f64; 4]> = (0..COUNT).map(|i| std::array::from_fn(|k| (i * k) as f64)).collect();
+        let (motions, factors) = moved(law, &x, &old.iter().collect::<Vec<_>>(), COUNT);
+        assert_eq!((factors.len(), factors[COUNT]), (COUNT + 1, Factors::ZERO));
+        assert_eq!(motions.iter().map(|m| m.finite).collect::<Vec<_>>(), [true, false, true]);
+        for k in [0, 2] {
+            for i in 0..COUNT {
+                let before = motion(k, i);
+                let now = law.follow(x[i][k], before);
+                assert_eq!([0, 1, 2].map(|m| motions[k].vectors[m][i]), now);
+                assert_eq!(factors[i].forms.map(|f| f[k]), [now[0], now[1], (now[1] + before[1]) / 2.]);
+                assert_eq!(factors[i].sum.map(|f| f[k]), law.onward(now));
+            }
+        }
+    }
 }

@@ -13,7 +13,7 @@ use super::unsettled::Unsettled;
 use crate::model::case::Newton;
 use crate::sparse::lanes::{apart, side_by_side};
 use crate::sparse::vector::add;
-use crate::sparse::{Factors, Found, MOST_LANES, NotPositiveDefinite, Symbolic, with_lanes_for};
+use crate::sparse::{Found, MOST_LANES, NotPositiveDefinite, Symbolic, with_lanes_for};
 
 /// Steps of one length, their matrix factored.
 pub struct Stepper {
@@ -26,12 +26,12 @@ pub struct Stepper {
 /// An accepted step, or where the first one starts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
-    /// nobody changes it: what is known of it would be wrong
+    /// read only: `forms` and `onward` belong to it
     state: State,
     pub iterations: usize,
     /// the paper's test (19), on the jumps
     pub displacement_test: f64,
-    /// what the energies of the step are made of
+    /// what the energies of the step are made of; zero at a start
     pub forms: Forms,
     onward: Option<Onward>,
 }
@@ -91,7 +91,7 @@ impl Stepper {
         }
     }
 
-    /// From one state to the next; the old one is not touched.
+    /// From one step of this system, or a start, to the next; the old one is not touched.
     pub fn step(&mut self, system: &System, old: &Step) -> Result<Step, Unsettled> {
         step_together(&mut [self], &[system], &[old]).swap_remove(0)
     }
@@ -108,16 +108,20 @@ impl Stepper {
     fn free_field(&mut self, system: &System, old: &State) -> Result<Vec<State>, Unsettled> {
         let columns = system.columns.iter().zip(&mut self.columns).zip(&old.free_field);
         columns
-            .map(|((column, stepper), old)| Ok(stepper.step(&column.system, &Step::start(old.clone()))?.state))
+            .map(|((column, stepper), old)| {
+                let step = stepper.step(&column.system, &Step::start(old.clone()));
+                step.map(Step::into_state).map_err(|why| column.on_side(why))
+            })
             .collect()
     }
 }
 
-/// A step of several systems that share one factor: L, M, C and K are read once for all of them, and each gets the digits
-/// that it gets alone.
+/// A step of several systems that share one factor: L, M, C and K (but for the elastic forces of Hilber, Hughes and
+/// Taylor) are read once for all of them, and each gets the digits that it gets alone.
 ///
 /// # Panics
-/// If there are not as many steppers, systems and old states, from one to [`MOST_TOGETHER`].
+/// If there are not as many steppers, systems and old states, from one to [`MOST_TOGETHER`], or the steppers differ in
+/// their scheme or length of step.
 pub fn step_together(
     steppers: &mut [&mut Stepper],
     systems: &[&System],
@@ -125,6 +129,7 @@ pub fn step_together(
 ) -> Vec<Result<Step, Unsettled>> {
     assert!(!old.is_empty(), "at least one system");
     assert!(steppers.len() == systems.len() && systems.len() == old.len(), "a stepper, a system and a state each");
+    assert!(steppers.iter().all(|stepper| stepper.law == steppers[0].law), "one scheme and one length of step");
     with_lanes_for!(steppers.len(), step_lanes(steppers, systems, old))
 }
 
@@ -171,13 +176,14 @@ fn step_lanes<const K: usize>(
                 iterations,
                 displacement_test,
                 forms: Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] },
-                onward: Some(with_lasting(systems[k], law, forces)),
+                onward: Some(with_lasting_load(systems[k], law, forces)),
             })
         })
         .collect()
 }
 
-/// Row i: what unknown i has on the right-hand side of each system. One whose columns did not settle gets no loads.
+/// Row i: what unknown i has on the right-hand side of each system. One whose columns did not settle lacks their forces;
+/// nobody asks for its step.
 fn right_hand_sides<const K: usize>(
     law: Law,
     systems: &[&System],
@@ -199,13 +205,10 @@ fn right_hand_sides<const K: usize>(
 }
 
 fn onward_of(system: &System, law: Law, State { q, v, a, .. }: &State) -> Onward {
-    let of_unknown = |i: usize| Factors { sum: law.onward([q[i], v[i], a[i]]).map(|x| [x]), ..Factors::ZERO };
-    let factors: Vec<Factors<1>> = (0..system.unknowns.count).map(of_unknown).chain([Factors::ZERO]).collect();
-    let forces = system.interleaved.read(&factors).sum.into_iter().map(|[f]| f).collect();
-    with_lasting(system, law, forces)
+    with_lasting_load(system, law, system.interleaved.sum(|i| law.onward([q[i], v[i], a[i]])))
 }
 
-fn with_lasting(system: &System, law: Law, mut forces: Vec<f64>) -> Onward {
+fn with_lasting_load(system: &System, law: Law, mut forces: Vec<f64>) -> Onward {
     system.lasting_load().iter().for_each(|f| add(&mut forces, 1., f));
     Onward { law, forces }
 }

@@ -148,7 +148,7 @@ impl System {
 
     /// f(t) [N]: loads, weight, and what held the boundaries when nothing moved.
     pub fn load(&self, time: f64) -> Vec<f64> {
-        let mut f = self.lasting_load().unwrap_or(vec![0.; self.unknowns.count]);
+        let mut f = self.lasting_load().unwrap_or_else(|| vec![0.; self.unknowns.count]);
         add_at(&mut f, 1., &self.passing_load(time));
         f
     }
@@ -250,6 +250,7 @@ fn columns(model: &Model, unknowns: &Unknowns, orders: &Orders) -> Result<Vec<Co
 }
 
 impl State {
+    /// Every number as [`is_finite`] says, in the columns too.
     pub fn is_finite(&self) -> bool {
         let vectors = [&self.q, &self.v, &self.a];
         vectors.into_iter().flatten().all(|&x| is_finite(x)) && self.free_field.iter().all(State::is_finite)

@@ -9,6 +9,7 @@ use sprs::CsMat;
 /// An unknown that has no partner stands in a block of two whose second one has zeros only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interleaved {
+    unknowns: usize,
     /// first unknown of each block row
     rows: Vec<u32>,
     /// where the blocks of each row begin; the first is the diagonal one
@@ -44,8 +45,11 @@ pub struct Found<const K: usize> {
 }
 
 impl Interleaved {
+    /// Their pattern is symmetric.
+    ///
     /// # Panics
-    /// If the matrices differ in their patterns, a row has no diagonal entry, or there are more unknowns than 32 bits count.
+    /// If the matrices differ in their patterns, a row has no diagonal entry, or there are more unknowns than 32 bits
+    /// count.
     pub fn new(matrices: [&CsMat<f64>; 3]) -> Interleaved {
         let pattern = matrices[0];
         for matrix in matrices {
@@ -56,7 +60,8 @@ impl Interleaved {
             );
         }
         let first = first_of_blocks(pattern);
-        let mut interleaved = Interleaved { rows: vec![], start: vec![0], columns: vec![], blocks: vec![] };
+        let mut interleaved =
+            Interleaved { unknowns: pattern.rows(), rows: vec![], start: vec![0], columns: vec![], blocks: vec![] };
         for i in (0..pattern.rows()).filter(|&i| first[i] == i) {
             let row = pattern.outer_view(i).expect("a row of its own");
             let right = row.indices().iter().copied().filter(|&j| j >= i && first[j] == j);
@@ -70,6 +75,22 @@ impl Interleaved {
             interleaved.start.push(interleaved.blocks.len());
         }
         interleaved
+    }
+
+    /// u'A u, v'B v and w'C w of one case, from each unknown's (u, v, w).
+    pub fn forms(&self, of_unknown: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+        let factors = |i: usize| Factors { forms: of_unknown(i).map(|x| [x]), ..Factors::ZERO };
+        self.read(&self.for_each_unknown(factors)).forms.map(|[form]| form)
+    }
+
+    /// B x + C y of one case, from each unknown's (x, y).
+    pub fn sum(&self, of_unknown: impl Fn(usize) -> [f64; 2]) -> Vec<f64> {
+        let factors = |i: usize| Factors { sum: of_unknown(i).map(|x| [x]), ..Factors::ZERO };
+        self.read(&self.for_each_unknown(factors)).sum.into_iter().map(|[f]| f).collect()
+    }
+
+    fn for_each_unknown(&self, factors: impl Fn(usize) -> Factors<1>) -> Vec<Factors<1>> {
+        (0..self.unknowns).map(factors).chain([Factors::ZERO]).collect()
     }
 
     /// Forms and sum of each unknown's factors.
@@ -114,7 +135,8 @@ impl<const K: usize> Kernel for Reading<'_, K> {
 
     #[inline(always)]
     fn run(self) -> Found<K> {
-        let Reading { matrices: Interleaved { rows, start, columns, blocks }, factors } = self;
+        let Reading { matrices: Interleaved { unknowns, rows, start, columns, blocks }, factors } = self;
+        assert_eq!(factors.len(), unknowns + 1, "factors for each unknown and one more");
         let mut found = Found { forms: [[0.; K]; 3], sum: vec![[0.; K]; factors.len()] };
         for (r, &i) in rows.iter().enumerate() {
             let i = i as usize;

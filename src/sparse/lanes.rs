@@ -22,10 +22,11 @@ macro_rules! with_lanes_for {
 }
 pub(crate) use with_lanes_for;
 
+/// Cases whose numbers fill the widest vector register.
 pub const MOST_LANES: usize = 8;
 
 /// Rows that are turned at once: they stay in the nearest cache while one vector after the other is.
-const TILE: usize = 64;
+pub(crate) const TILE: usize = 64;
 
 /// The first `of` lanes, each by itself.
 pub fn apart<const K: usize>(x: &Lanes<K>, of: usize) -> Vec<Vec<f64>> {

@@ -169,6 +169,7 @@ impl<'a> Recorder<'a> {
                 .iter()
                 .cloned()
                 .chain(self.ledger.warning())
+                .chain(self.ledger.unclosed().filter(|_| model.closes_its_ledger()))
                 .chain(snapshots.motion.warnings())
                 .collect(),
         })
