@@ -9,6 +9,7 @@ use coralpipe::solve::march::March;
 use coralpipe::solve::start;
 use coralpipe::solve::step::Step;
 use coralpipe::solve::system::{Rayleigh, State, System};
+use coralpipe::solve::unsettled::{Place, Unsettled};
 use serde_json::{Value, json};
 use support::root;
 
@@ -62,6 +63,13 @@ fn each_case_among_others_gets_the_digits_that_it_gets_alone() {
         })
         .collect();
     assert!(alone[1].is_empty(), "a load of 1e200 Pa has a state");
+    // The columns come first; their overflow is told at a node of the model's side, not at one of their own.
+    let mut march = lead.sharing_factor(&systems[1]);
+    let why = march.advance(&Step::start(begin(&systems[1]).unwrap())).unwrap_err();
+    let Unsettled::Overflow(Place::Node(node)) = why else { panic!("{why:?}") };
+    let xs = || models[1].mesh.points.iter().map(|point| point[0]);
+    let sides = [xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max)];
+    assert!(sides.contains(&models[1].mesh.points[node][0]), "node {node} lies inside");
     let slipped = |steps: &Vec<Step>| steps.iter().any(|s| s.state().joints.iter().any(|j| j.status.is_slipping()));
     assert!(alone.iter().filter(|steps| slipped(steps)).count() > 5, "joints must slip for this to say something");
 

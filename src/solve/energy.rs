@@ -71,7 +71,7 @@ impl Ledger {
         let joint_force = joint_force(system, new);
 
         let [u, before] = [new, old].map(|state| system.displacements(&state.q));
-        let lasting = system.lasting_load().map_or(0., |f| dot(&f, &growth(before, u)));
+        let lasting: f64 = system.lasting_loads().map(|f| dot(f, &growth(before, u))).sum();
         let work = lasting + mean_work(&self.load, &load, old, new);
         let joint_work = mean_dot(&self.joint_force, &joint_force, &growth_of_jumps(system, old, new));
         let stored = stored(system, new, forms);
@@ -168,7 +168,7 @@ impl Forms {
 
     pub fn of(system: &System, old: &State, new: &State) -> Forms {
         let factors = |i: usize| Forms::factors(new.q[i], new.v[i], old.v[i]);
-        let [strain, kinetic, drained] = system.interleaved.forms(factors);
+        let [strain, kinetic, drained] = system.interleaved().forms(factors);
         Forms { strain, kinetic, drained }
     }
 }

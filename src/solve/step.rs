@@ -41,7 +41,7 @@ pub struct Step {
 struct Onward {
     /// of the step, and so of its length
     law: Law,
-    /// M (a0 u + a2 v + a3 a) + C (a1 u + a4 v + a5 a) and the forces that act at all times [N]
+    /// M x + C y, x and y as [`Law::onward`] says, and the forces that act at all times [N]
     forces: Vec<f64>,
 }
 
@@ -162,7 +162,7 @@ fn step_lanes<const K: usize>(
     steppers[0].condensed.factor().expand_lanes(&mut x);
     let states: Vec<&State> = old.iter().map(|old| &old.state).collect();
     let (motions, factors) = moved(law, &x, &states, systems[0].unknowns.with_jumps());
-    let Found { forms, sum } = systems[0].interleaved.read(&factors);
+    let Found { forms, sum } = systems[0].interleaved().read(&factors);
     let onward = apart(&sum, old.len());
     let [strain, kinetic, drained] = forms;
     let stepped = cases.zip(settled).zip(free_fields).zip(motions).zip(onward);
@@ -176,7 +176,7 @@ fn step_lanes<const K: usize>(
                 iterations,
                 displacement_test,
                 forms: Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] },
-                onward: Some(with_lasting_load(systems[k], law, forces)),
+                onward: Some(with_lasting_loads(systems[k], law, forces)),
             })
         })
         .collect()
@@ -205,10 +205,10 @@ fn right_hand_sides<const K: usize>(
 }
 
 fn onward_of(system: &System, law: Law, State { q, v, a, .. }: &State) -> Onward {
-    with_lasting_load(system, law, system.interleaved.sum(|i| law.onward([q[i], v[i], a[i]])))
+    with_lasting_loads(system, law, system.interleaved().sum(|i| law.onward([q[i], v[i], a[i]])))
 }
 
-fn with_lasting_load(system: &System, law: Law, mut forces: Vec<f64>) -> Onward {
-    system.lasting_load().iter().for_each(|f| add(&mut forces, 1., f));
+fn with_lasting_loads(system: &System, law: Law, mut forces: Vec<f64>) -> Onward {
+    system.lasting_loads().for_each(|f| add(&mut forces, 1., f));
     Onward { law, forces }
 }

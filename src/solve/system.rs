@@ -8,12 +8,12 @@ use crate::Result;
 use crate::model::moving_front::MovingFront;
 use crate::model::resolve::Model;
 use crate::physics::pulse::Pulse;
-use crate::sparse::vector::add_at;
+use crate::sparse::vector::{add, add_at};
 use crate::sparse::{Interleaved, Orders, Symbolic, multiply};
 use nalgebra::Matrix2;
 use serde::Serialize;
 use sprs::{CsMat, TriMat};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// K, M and C hold the bodies and what lets waves out of them; they share one pattern, so that sums of them are sums of
 /// their values. What is counted by reference belongs to all cases of a sweep.
@@ -29,8 +29,8 @@ pub struct System {
     pub dashpots: Option<Arc<CsMat<f64>>>,
     /// zero until [`System::with_damping`]
     pub rayleigh: Rayleigh,
-    /// K, M and C as every step reads them
-    pub interleaved: Arc<Interleaved>,
+    /// K, M and C as every step reads them; made when first read, when damping is known
+    interleaved: Arc<OnceLock<Interleaved>>,
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
     pub interface: Interface,
@@ -82,7 +82,7 @@ impl System {
         let damping = assembly::dashpots(model, &unknowns, scaled(&mass, 0.));
         Ok(System {
             dashpots: (!model.absorbers.is_empty()).then(|| Arc::new(without_zeros(&damping))),
-            interleaved: Interleaved::new([&stiffness, &mass, &damping]).into(),
+            interleaved: Arc::default(),
             rayleigh: Rayleigh::default(),
             joint_beta: None,
             interface: interface(model, &unknowns),
@@ -130,7 +130,7 @@ impl System {
         let stiffness = combine(&[(1., &self.stiffness), (alpha / 2., dashpots)]);
         let mass = combine(&[(1., &self.mass), (beta / 2., dashpots)]);
         System {
-            interleaved: Interleaved::new([&stiffness, &mass, &damping]).into(),
+            interleaved: Arc::default(),
             stiffness: stiffness.into(),
             mass: mass.into(),
             damping: damping.into(),
@@ -148,15 +148,20 @@ impl System {
 
     /// f(t) [N]: loads, weight, and what held the boundaries when nothing moved.
     pub fn load(&self, time: f64) -> Vec<f64> {
-        let mut f = self.lasting_load().unwrap_or_else(|| vec![0.; self.unknowns.count]);
+        let mut f = vec![0.; self.unknowns.count];
+        self.lasting_loads().for_each(|lasting| add(&mut f, 1., lasting));
         add_at(&mut f, 1., &self.passing_load(time));
         f
     }
 
-    /// The part of f that acts at all times, if there is any [N].
-    pub fn lasting_load(&self) -> Option<Vec<f64>> {
-        let both = [self.gravity.as_deref(), self.reactions.as_ref()].into_iter().flatten();
-        both.cloned().reduce(|g, r| g.iter().zip(r).map(|(g, r)| g + r).collect())
+    /// The parts of f that act at all times [N].
+    pub fn lasting_loads(&self) -> impl Iterator<Item = &[f64]> {
+        [self.gravity.as_deref(), self.reactions.as_ref()].into_iter().flatten().map(Vec::as_slice)
+    }
+
+    /// K, M and C as every step reads them.
+    pub fn interleaved(&self) -> &Interleaved {
+        self.interleaved.get_or_init(|| Interleaved::new([&self.stiffness, &self.mass, &self.damping]))
     }
 
     /// The part of f that comes and goes: (unknown, force [N]), an unknown perhaps several times.

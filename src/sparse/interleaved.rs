@@ -62,13 +62,17 @@ impl Interleaved {
         let first = first_of_blocks(pattern);
         let mut interleaved =
             Interleaved { unknowns: pattern.rows(), rows: vec![], start: vec![0], columns: vec![], blocks: vec![] };
+        let has_partner = |i: usize| first.get(i + 1) == Some(&i);
+        let row = |i: usize| pattern.indptr().outer_inds_sz(i);
         for i in (0..pattern.rows()).filter(|&i| first[i] == i) {
-            let row = pattern.outer_view(i).expect("a row of its own");
-            let right = row.indices().iter().copied().filter(|&j| j >= i && first[j] == j);
             let before = interleaved.blocks.len();
-            for j in right {
+            for (place, &j) in row(i).zip(&pattern.indices()[row(i)]).filter(|(_, j)| **j >= i && first[**j] == **j) {
+                // the partner's row has the same columns, a partner's column is the next one
+                let below = has_partner(i).then(|| place + row(i).len());
+                let right = |place: usize| has_partner(j).then(|| place + 1);
+                let places = [Some(place), below, right(place), below.and_then(right)];
                 interleaved.columns.push(narrow(j));
-                interleaved.blocks.push(matrices.map(|matrix| block(matrix, &first, i, j)));
+                interleaved.blocks.push(matrices.map(|m| places.map(|place| place.map_or(0., |p| m.data()[p]))));
             }
             assert_eq!(interleaved.columns.get(before), Some(&narrow(i)), "every row has its diagonal entry");
             interleaved.rows.push(narrow(i));
@@ -115,14 +119,6 @@ fn first_of_blocks(pattern: &CsMat<f64>) -> Vec<usize> {
         first.push(partner.unwrap_or(i));
     }
     first
-}
-
-/// Of the blocks that begin in row i and column j.
-fn block(matrix: &CsMat<f64>, first: &[usize], i: usize, j: usize) -> Block {
-    let entry = |i: usize, j: usize| matrix.get(i, j).copied().unwrap_or(0.);
-    let partner = |i: usize| (first.get(i + 1) == Some(&i)).then_some(i + 1);
-    let places = [(Some(i), Some(j)), (partner(i), Some(j)), (Some(i), partner(j)), (partner(i), partner(j))];
-    places.map(|(i, j)| i.zip(j).map_or(0., |(i, j)| entry(i, j)))
 }
 
 struct Reading<'a, const K: usize> {
