@@ -161,7 +161,11 @@ impl System {
 
     /// K, M and C as every step reads them.
     pub fn interleaved(&self) -> &Interleaved {
-        self.interleaved.get_or_init(|| Interleaved::new([&self.stiffness, &self.mass, &self.damping]))
+        let Rayleigh { alpha, beta } = self.rayleigh;
+        // C = alpha M_b + beta K_b + D of the bodies' M_b = M - beta D / 2 and K_b = K - alpha D / 2
+        let beyond = || self.dashpots.as_ref().map(|d| d.map(|d| (1. - alpha * beta) * d));
+        self.interleaved
+            .get_or_init(|| Interleaved::new([&self.stiffness, &self.mass], [alpha, beta], beyond().as_ref()))
     }
 
     /// The part of f that comes and goes: (unknown, force [N]), an unknown perhaps several times.

@@ -1,26 +1,45 @@
-//! Three symmetric matrices on one pattern, interleaved so that one reading of their upper triangles serves all that is
-//! to be known of them.
+//! Symmetric matrices on one pattern, interleaved so that one reading of their upper triangles serves all that is to be
+//! known of them: stiffness A, mass B, and damping C = a B + b A + E.
 
 use super::widest::{Kernel, on_widest};
 use sprs::CsMat;
 
-/// A and B and C, 2 x 2 blocks of neighbouring unknowns: most unknowns are two at a node, with the same neighbours.
+/// A and B in 2 x 2 blocks of neighbouring unknowns: most unknowns are two at a node, with the same neighbours, and the
+/// same mass along both axes.
 ///
 /// An unknown that has no partner stands in a block of two whose second one has zeros only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interleaved {
     unknowns: usize,
+    /// a, b
+    share: [f64; 2],
     /// first unknown of each block row
     rows: Vec<u32>,
     /// where the blocks of each row begin; the first is the diagonal one
     start: Vec<usize>,
     /// first unknown of each block's columns
     columns: Vec<u32>,
-    blocks: Vec<[Block; 3]>,
+    blocks: Vec<Block>,
+    /// what the blocks do not hold
+    rest: Vec<Rest>,
 }
 
-/// (a_00, a_10, a_01, a_11)
-type Block = [f64; 4];
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Block {
+    /// (a_00, a_10, a_01, a_11)
+    a: [f64; 4],
+    /// b_00 = b_11, and b_01 = b_10 = 0
+    b: f64,
+}
+
+/// Of an entry of the upper triangle that is not zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Rest {
+    row: u32,
+    column: u32,
+    b: f64,
+    e: f64,
+}
 
 /// What the matrices are multiplied by in one unknown, for each of K cases.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,40 +64,50 @@ pub struct Found<const K: usize> {
 }
 
 impl Interleaved {
-    /// Their pattern is symmetric.
+    /// Of A, B and E, whose patterns are symmetric, E's within that of the others, and a and b.
     ///
     /// # Panics
-    /// If the matrices differ in their patterns, a row has no diagonal entry, or there are more unknowns than 32 bits
-    /// count.
-    pub fn new(matrices: [&CsMat<f64>; 3]) -> Interleaved {
-        let pattern = matrices[0];
-        for matrix in matrices {
-            assert_eq!(
-                (matrix.indptr(), matrix.indices()),
-                (pattern.indptr(), pattern.indices()),
-                "one pattern for all"
-            );
-        }
-        let first = first_of_blocks(pattern);
-        let mut interleaved =
-            Interleaved { unknowns: pattern.rows(), rows: vec![], start: vec![0], columns: vec![], blocks: vec![] };
+    /// If A and B differ in their patterns, a row has no diagonal entry, or there are more unknowns than 32 bits count.
+    pub fn new([a, b]: [&CsMat<f64>; 2], share: [f64; 2], e: Option<&CsMat<f64>>) -> Interleaved {
+        assert_eq!((a.indptr(), a.indices()), (b.indptr(), b.indices()), "one pattern for both");
+        let first = first_of_blocks(a);
         let has_partner = |i: usize| first.get(i + 1) == Some(&i);
-        let row = |i: usize| pattern.indptr().outer_inds_sz(i);
-        for i in (0..pattern.rows()).filter(|&i| first[i] == i) {
-            let before = interleaved.blocks.len();
-            for (place, &j) in row(i).zip(&pattern.indices()[row(i)]).filter(|(_, j)| **j >= i && first[**j] == **j) {
+        let row = |i: usize| a.indptr().outer_inds_sz(i);
+        let (mut rows, mut start, mut columns, mut blocks) = (vec![], vec![0], vec![], vec![]);
+        let mut rest = Vec::new();
+        for i in (0..a.rows()).filter(|&i| first[i] == i) {
+            let before = columns.len();
+            for (place, &j) in row(i).zip(&a.indices()[row(i)]).filter(|(_, j)| **j >= i && first[**j] == **j) {
                 // the partner's row has the same columns, a partner's column is the next one
                 let below = has_partner(i).then(|| place + row(i).len());
                 let right = |place: usize| has_partner(j).then(|| place + 1);
                 let places = [Some(place), below, right(place), below.and_then(right)];
-                interleaved.columns.push(narrow(j));
-                interleaved.blocks.push(matrices.map(|m| places.map(|place| place.map_or(0., |p| m.data()[p]))));
+                let [a, b] = [a, b].map(|matrix| places.map(|place| place.map_or(0., |p| matrix.data()[p])));
+                // Only two partners both have an equal share of it.
+                let in_block = if has_partner(i) && has_partner(j) { b[0] } else { 0. };
+                let left = [b[0] - in_block, b[1], b[2], b[3] - in_block];
+                let at = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
+                let upper = at.into_iter().zip(left).filter(|((row, column), b)| row <= column && *b != 0.);
+                rest.extend(upper.map(|((row, column), b)| Rest {
+                    row: narrow(row),
+                    column: narrow(column),
+                    b,
+                    e: 0.,
+                }));
+                if i == j || (a, in_block) != ([0.; 4], 0.) {
+                    // on the diagonal half of it: it is read as right of itself, and as below itself
+                    let share = if i == j { 0.5 } else { 1. };
+                    columns.push(narrow(j));
+                    blocks.push(Block { a: a.map(|a| share * a), b: share * in_block });
+                }
             }
-            assert_eq!(interleaved.columns.get(before), Some(&narrow(i)), "every row has its diagonal entry");
-            interleaved.rows.push(narrow(i));
-            interleaved.start.push(interleaved.blocks.len());
+            assert_eq!(columns.get(before), Some(&narrow(i)), "every row has its diagonal entry");
+            rows.push(narrow(i));
+            start.push(blocks.len());
         }
-        interleaved
+        let upper = e.into_iter().flatten().filter(|(_, (row, column))| row <= column);
+        rest.extend(upper.map(|(&e, (row, column))| Rest { row: narrow(row), column: narrow(column), b: 0., e }));
+        Interleaved { unknowns: a.rows(), share, rows, start, columns, blocks, rest }
     }
 
     /// u'A u, v'B v and w'C w of one case, from each unknown's (u, v, w).
@@ -131,37 +160,65 @@ impl<const K: usize> Kernel for Reading<'_, K> {
 
     #[inline(always)]
     fn run(self) -> Found<K> {
-        let Reading { matrices: Interleaved { unknowns, rows, start, columns, blocks }, factors } = self;
+        let Reading { matrices: Interleaved { unknowns, share, rows, start, columns, blocks, rest }, factors } = self;
         assert_eq!(factors.len(), unknowns + 1, "factors for each unknown and one more");
         let mut found = Found { forms: [[0.; K]; 3], sum: vec![[0.; K]; factors.len()] };
         for (r, &i) in rows.iter().enumerate() {
-            let i = i as usize;
-            let (own, blocks) = blocks[start[r]..start[r + 1]].split_first().expect("the diagonal one");
-            let here = pair(factors, i);
-            let mut sum = sum_of(own, &here);
-            let [mut u, mut v, mut w] = [[[0.; K]; 2]; 3];
-            for (&j, block) in columns[start[r] + 1..start[r + 1]].iter().zip(blocks) {
-                let j = j as usize;
-                let there = pair(factors, j);
-                sum = plus(sum, sum_of(block, &there));
-                u = plus(u, times(&block[0], there.map(|f| f.forms[0])));
-                v = plus(v, times(&block[1], there.map(|f| f.forms[1])));
-                w = plus(w, times(&block[2], there.map(|f| f.forms[2])));
-                add(&mut found.sum, j, sum_of(&block.map(transposed), &here));
+            let (columns, blocks) = (&columns[start[r]..start[r + 1]], &blocks[start[r]..start[r + 1]]);
+            let here = pair(factors, i as usize);
+            let [mut u, mut v, mut w, mut sum] = [[[0.; K]; 2]; 4];
+            for (&j, block) in columns.iter().zip(blocks) {
+                let there = pair(factors, j as usize);
+                let c = block.damping(*share);
+                u = plus(u, times(&block.a, there.map(|f| f.forms[0])));
+                v = plus(v, scaled(block.b, there.map(|f| f.forms[1])));
+                w = plus(w, times(&c, there.map(|f| f.forms[2])));
+                sum = plus(sum, plus(scaled(block.b, there.map(|f| f.sum[0])), times(&c, there.map(|f| f.sum[1]))));
+                let c = transposed(c);
+                let below = plus(scaled(block.b, here.map(|f| f.sum[0])), times(&c, here.map(|f| f.sum[1])));
+                add(&mut found.sum, j as usize, below);
             }
-            add(&mut found.sum, i, sum);
+            add(&mut found.sum, i as usize, sum);
             for (m, right) in [u, v, w].into_iter().enumerate() {
                 let here = here.map(|f| f.forms[m]);
-                let diagonal = times(&own[m], here);
-                // Each block off the diagonal stands for two.
                 for k in 0..K {
-                    found.forms[m][k] += here[0][k] * (diagonal[0][k] + 2. * right[0][k])
-                        + here[1][k] * (diagonal[1][k] + 2. * right[1][k]);
+                    // Each block stands for two, the diagonal one is half of itself.
+                    found.forms[m][k] += 2. * (here[0][k] * right[0][k] + here[1][k] * right[1][k]);
                 }
             }
         }
+        for entry in rest {
+            entry.add_to(&mut found, factors, share[0]);
+        }
         found.sum.pop();
         found
+    }
+}
+
+impl Block {
+    /// Of a B + b A: (c_00, c_10, c_01, c_11).
+    #[inline(always)]
+    fn damping(&self, [a, b]: [f64; 2]) -> [f64; 4] {
+        let [a_00, a_10, a_01, a_11] = self.a;
+        [a * self.b + b * a_00, b * a_10, b * a_01, a * self.b + b * a_11]
+    }
+}
+
+impl Rest {
+    #[inline(always)]
+    fn add_to<const K: usize>(&self, found: &mut Found<K>, factors: &[Factors<K>], share: f64) {
+        let Rest { row, column, b, e } = *self;
+        let (i, j, c) = (row as usize, column as usize, share * b + e);
+        let (here, there) = (&factors[i], &factors[j]);
+        let twice = if i == j { 1. } else { 2. };
+        for k in 0..K {
+            found.forms[1][k] += twice * b * here.forms[1][k] * there.forms[1][k];
+            found.forms[2][k] += twice * c * here.forms[2][k] * there.forms[2][k];
+            found.sum[i][k] += b * there.sum[0][k] + c * there.sum[1][k];
+            if i != j {
+                found.sum[j][k] += b * here.sum[0][k] + c * here.sum[1][k];
+            }
+        }
     }
 }
 
@@ -172,15 +229,9 @@ fn pair<const K: usize>(factors: &[Factors<K>], i: usize) -> [&Factors<K>; 2] {
     pair.each_ref()
 }
 
-/// B x + C y.
-#[inline(always)]
-fn sum_of<const K: usize>([_, b, c]: &[Block; 3], factors: &[&Factors<K>; 2]) -> [[f64; K]; 2] {
-    plus(times(b, factors.map(|f| f.sum[0])), times(c, factors.map(|f| f.sum[1])))
-}
-
 /// A x.
 #[inline(always)]
-fn times<const K: usize>(a: &Block, x: [[f64; K]; 2]) -> [[f64; K]; 2] {
+fn times<const K: usize>(a: &[f64; 4], x: [[f64; K]; 2]) -> [[f64; K]; 2] {
     let mut product = [[0.; K]; 2];
     for r in 0..2 {
         for k in 0..K {
@@ -190,8 +241,20 @@ fn times<const K: usize>(a: &Block, x: [[f64; K]; 2]) -> [[f64; K]; 2] {
     product
 }
 
+/// b x.
 #[inline(always)]
-fn transposed([a, b, c, d]: Block) -> Block {
+fn scaled<const K: usize>(b: f64, x: [[f64; K]; 2]) -> [[f64; K]; 2] {
+    let mut product = [[0.; K]; 2];
+    for r in 0..2 {
+        for k in 0..K {
+            product[r][k] = b * x[r][k];
+        }
+    }
+    product
+}
+
+#[inline(always)]
+fn transposed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     [a, c, b, d]
 }
 
@@ -224,8 +287,8 @@ mod tests {
     /// Sums of some thirty products of numbers up to 1, each exact to 1e-16.
     const ROUND_OFF: f64 = 1e-14;
 
-    /// Two unknowns at most nodes of a grid, one at every fifth, the last among them.
-    fn matrix(seed: usize) -> CsMat<f64> {
+    /// Two unknowns at most nodes of a grid, one at every fifth, the last among them; the value of two nodes' unknowns.
+    fn matrix(of: impl Fn([usize; 2], [usize; 2]) -> f64) -> CsMat<f64> {
         let grid = grid_matrix(9, 5, &[3, 4]);
         let mut numbers: Vec<Vec<usize>> = Vec::new();
         let mut count = 0;
@@ -234,22 +297,43 @@ mod tests {
             numbers.push((count..count + at_node).collect());
             count += at_node;
         }
-        let values = random(count * count, seed);
         let mut matrix = TriMat::new((count, count));
-        for (_, (a, b)) in grid.iter() {
-            for (&i, &j) in numbers[a].iter().flat_map(|i| numbers[b].iter().map(move |j| (i, j))) {
-                matrix.add_triplet(i, j, values[i.min(j) * count + i.max(j)]);
+        for (_, (p, q)) in grid.iter() {
+            for (axis, &i) in numbers[p].iter().enumerate() {
+                for (other_axis, &j) in numbers[q].iter().enumerate() {
+                    let value = if i <= j { of([p, axis], [q, other_axis]) } else { of([q, other_axis], [p, axis]) };
+                    matrix.add_triplet(i, j, value);
+                }
             }
         }
         matrix.to_csr()
     }
 
+    /// The first node holds something else than mass, at one of its axes.
     #[test]
     fn one_reading_gives_the_products_of_the_whole_matrices() {
-        let [a, b, c] = [1, 2, 3].map(matrix);
+        const NODES: usize = 120;
+        let values = random(4 * NODES * NODES, 1);
+        let value = |[p, axis]: [usize; 2], [q, other_axis]: [usize; 2]| {
+            values[2 * NODES * (2 * p + axis) + 2 * q + other_axis]
+        };
+        let a = matrix(value);
+        let b = matrix(|p, q| match (p[1] == q[1], p, q) {
+            (true, ..) => value([p[0], 0], [q[0], 0]) + if (p, q) == ([0, 1], [0, 1]) { 0.7 } else { 0. },
+            (false, [0, _], [0, _]) => 0.3,
+            _ => 0.,
+        });
+        let e = matrix(|p, q| if p[0] < 2 && q[0] < 2 { value(q, p) } else { 0. });
+        let share = [0.3, 0.02];
+        let c = &(&a.map(|a| share[1] * a) + &b.map(|b| share[0] * b)) + &e;
         let n = a.rows();
-        let interleaved = Interleaved::new([&a, &b, &c]);
+        let interleaved = Interleaved::new([&a, &b], share, Some(&without_zeros(&e)));
         assert!(interleaved.rows.len() < 6 * n / 10, "two unknowns at most nodes stand in one block");
+        // what nodes with one unknown have in common with their neighbours, and the first node's two and E
+        let rest = |e: bool| interleaved.rest.iter().filter(|entry| (entry.e != 0.) == e).count();
+        let upper = (b.nnz() + n) / 2;
+        assert!(rest(false) < upper / 4 && rest(true) == 10, "{} of {upper}, {}", rest(false), rest(true));
+
         let [u, v, w, x, y] = [4, 5, 6, 7, 8].map(|seed| random(n, seed));
         // The second case has twice the first's.
         let twice = |x: f64| [x, 2. * x];
@@ -268,5 +352,11 @@ mod tests {
             assert!((form[0] - dot(v, &multiply(m, v))).abs() < ROUND_OFF * dot(v, v) * 10.);
             assert_eq!(form[1], 4. * form[0]);
         }
+    }
+
+    fn without_zeros(matrix: &CsMat<f64>) -> CsMat<f64> {
+        let mut sparse = TriMat::new(matrix.shape());
+        matrix.iter().filter(|(value, _)| **value != 0.).for_each(|(&value, (i, j))| sparse.add_triplet(i, j, value));
+        sparse.to_csr()
     }
 }
