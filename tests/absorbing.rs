@@ -9,6 +9,7 @@ use coralpipe::model::resolve::Model;
 use coralpipe::solve::energy::{Forms, Ledger};
 use coralpipe::solve::start;
 use coralpipe::solve::system::{Rayleigh, State, System};
+use coralpipe::sparse::multiply;
 use coralpipe::study::prepare::Prepared;
 use nalgebra::{Complex, Matrix2, Matrix4, Vector2, Vector4};
 use serde_json::{Value, json};
@@ -92,6 +93,25 @@ fn motion(json: &Value, mesh: &Mesh, rayleigh: Rayleigh) -> (Vec<Vec<[f64; 2]>>,
         last = Some((state.clone(), ledger));
     });
     (rows, last.unwrap().1)
+}
+
+/// What steps read in place of M and C, dashpots among it: B x + C y, v'M v, w'C w. alpha beta = .15, so that the terms of
+/// second order count; 1e-14: sums of some forty products.
+#[test]
+fn what_steps_read_is_mass_and_damping_with_the_dashpots() {
+    let json = case(&json!({ "boundaries": { "base": "viscous" }, "supports": { "left": ["x"], "right": ["x"] } }));
+    let model = support::model(&json, &ground(Shape::Quad4, &[0., 1.5, 4.], &HEIGHTS));
+    let system = System::new(&model).unwrap().with_damping(Rayleigh { alpha: 30., beta: 5e-3 }, false);
+    let n = system.unknowns.count;
+    let [x, y] = [0.7, 1.3].map(|step| (0..n).map(|i| (step * i as f64).sin()).collect::<Vec<f64>>());
+    let read = system.interleaved().sum(|i| [x[i], y[i]]);
+    let [m_x, c_y] = [multiply(&system.mass, &x), multiply(&system.damping, &y)];
+    let missed: Vec<f64> = (0..n).map(|i| read[i] - m_x[i] - c_y[i]).collect();
+    assert!(peak(&missed) < 1e-14 * peak(&c_y), "{:e} of {:e}", peak(&missed), peak(&c_y));
+
+    let [_, kinetic, drained] = system.interleaved().forms(|i| [0., x[i], y[i]]);
+    let whole = [support::dot(&x, &m_x), support::dot(&y, &c_y)];
+    assert!((kinetic / whole[0] - 1.).abs() < 1e-14 && (drained / whole[1] - 1.).abs() < 1e-14, "{kinetic} {drained}");
 }
 
 /// Under a uniform load the ground between free-field sides is the strip between rollers, exactly: the coupling uses the
