@@ -261,8 +261,9 @@ fn imbalance(prepared: &Prepared, state: &State) -> f64 {
             (force(&sections[i]), force(&sections[(i + n / 2) % n]), inertia(prepared, state, &cells));
         let mut sum = [0, 1].map(|k| first[k] - last[k] - inertia[k]);
         for (point, joint) in system.interface.points.iter().zip(&state.joints) {
-            if cells.contains(&model.joints[point.joint].body_cell) {
-                let f = point.rotation().transpose() * joint.traction * point.area;
+            for (_, area) in point.parts.iter().filter(|(element, _)| cells.contains(&model.joints[*element].body_cell))
+            {
+                let f = point.rotation().transpose() * joint.traction * *area;
                 (0..2).for_each(|k| sum[k] += f[k]);
             }
         }

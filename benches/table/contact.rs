@@ -53,7 +53,7 @@ pub fn rows(size: &Size) -> Vec<Row> {
     vec![Row {
         what: "contact step, equations",
         unknowns: contact.system.unknowns.count,
-        joint_points: contact.system.interface.points.len(),
+        joint_points: contact.system.interface.element_points(),
         value: seconds(of_contact.median()),
         beside: "bonded step".into(),
         reference: seconds(of_bonded.median()),

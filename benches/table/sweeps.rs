@@ -49,7 +49,7 @@ pub fn rows(size: &Size) -> Vec<Row> {
     let row = |beside: &str, reference: &super::clock::Samples, goal| Row {
         what: "forward + backward sweep",
         unknowns: system.unknowns.count,
-        joint_points: system.interface.points.len(),
+        joint_points: system.interface.element_points(),
         value: seconds(sweeps.median()),
         beside: beside.into(),
         reference: seconds(reference.median()),

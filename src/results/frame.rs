@@ -56,13 +56,16 @@ fn joint_cells(interface: &Interface, joints: usize, jumps: &[f64], state: &Stat
     let mut cells = vec![JointCell::default(); joints];
     let mut areas = vec![0.; joints];
     for (point, memory) in interface.points.iter().zip(&state.joints) {
-        let cell = &mut cells[point.joint];
-        cell.gap += point.area * (interface.local(point, jumps)[1] + point.law.gap);
-        cell.slip += point.area * memory.slip;
-        cell.shear_traction += point.area * memory.traction[0];
-        cell.normal_traction += point.area * memory.traction[1];
-        cell.status = cell.status.max(status_number(memory.status));
-        areas[point.joint] += point.area;
+        let gap = interface.local(point, jumps)[1] + point.law.gap;
+        for &(joint, area) in &point.parts {
+            let cell = &mut cells[joint];
+            cell.gap += area * gap;
+            cell.slip += area * memory.slip;
+            cell.shear_traction += area * memory.traction[0];
+            cell.normal_traction += area * memory.traction[1];
+            cell.status = cell.status.max(status_number(memory.status));
+            areas[joint] += area;
+        }
     }
     for (cell, area) in cells.iter_mut().zip(areas) {
         for value in [&mut cell.gap, &mut cell.slip, &mut cell.shear_traction, &mut cell.normal_traction] {
@@ -89,13 +92,10 @@ pub struct Grid {
     sites: Sites,
     recovery: Recovery,
     unknowns: Arc<Unknowns>,
-    /// the unknowns that displacements are counted from
-    origin: Vec<f64>,
 }
 
 impl Grid {
-    /// `origin`: the unknowns in equilibrium under gravity.
-    pub fn new(model: &Model, system: &System, origin: &[f64]) -> Grid {
+    pub fn new(model: &Model, system: &System) -> Grid {
         let sites = Sites::new(model);
         let (mut connectivity, mut offsets, mut types, mut material) = (vec![], vec![], vec![], vec![]);
         let mut push = |nodes: &mut dyn Iterator<Item = usize>, shape: Shape, number: i32| {
@@ -117,25 +117,25 @@ impl Grid {
             recovery: Recovery::new(model, &sites),
             sites,
             unknowns: system.unknowns.clone(),
-            origin: origin.into(),
         }
     }
 
-    /// The .vtu file of a frame. Displacement, stress and the interfaces' numbers are in double precision; what has an
+    /// The .vtu file of a frame, displacements counted from the unknowns `origin`. Displacement, stress and the interfaces' numbers are in double precision; what has an
     /// error far above round-off or can be had from them is in single precision: half the bytes and time.
-    pub fn vtu(&self, frame: &Frame) -> Result<String> {
+    pub fn vtu(&self, frame: &Frame, origin: &[f64]) -> Result<String> {
         // what stresses come from: the part of gravity is in it
         let total_displacement = self.unknowns.at_nodes(&frame.q);
         let centres = self.recovery.stresses(&total_displacement);
         let mut file = vtu::File::new(&self.base);
-        self.add_point_data(&mut file, frame, &self.recovery.nodal_stresses(&total_displacement, &centres));
+        let nodal_stresses = self.recovery.nodal_stresses(&total_displacement, &centres);
+        self.add_point_data(&mut file, frame, origin, &nodal_stresses);
         self.add_cell_data(&mut file, &frame.joints, &centres);
         let why = |e| Error::input(format!("the frame at {} cannot be written as VTU: {e}", seconds(frame.time)));
         file.text().map_err(why)
     }
 
-    fn add_point_data(&self, file: &mut vtu::File, frame: &Frame, stress: &[[f64; 4]]) {
-        let moved: Vec<f64> = frame.q.iter().zip(&self.origin).map(|(q, o)| q - o).collect();
+    fn add_point_data(&self, file: &mut vtu::File, frame: &Frame, origin: &[f64], stress: &[[f64; 4]]) {
+        let moved: Vec<f64> = frame.q.iter().zip(origin).map(|(q, o)| q - o).collect();
         let in_space = |q: &[f64]| self.sites.in_space(&self.unknowns.at_nodes(q)).into_flattened();
         let six: Vec<[f64; 6]> = stress.iter().copied().map(six).collect();
         let von_mises: Vec<f64> = stress.iter().copied().map(von_mises).collect();

@@ -50,7 +50,7 @@ struct Ray {
     outer_node: usize,
     /// of the outer face that the outer node stands for [m^2]
     area: f64,
-    /// joint points of the outer node, and half those of the mid-side nodes beside it: (which, part)
+    /// joint points of the outer node, and half those of the mid-side nodes beside it: (which, area [m^2])
     joints: Vec<(usize, f64)>,
     /// at the inner and the outer face
     hoop: [Weights; 2],
@@ -63,12 +63,22 @@ struct Element {
     weight: DVector<f64>,
     /// (which of the model, what it does here)
     loads: Vec<(usize, ElementLoad)>,
-    /// (joint point, node of the element, N)
-    joints: Vec<(usize, usize, f64)>,
+    joints: Vec<JointShare>,
     /// where it ends at a ray
     ends: Vec<End>,
     /// where it carries the outer face
     outer: Vec<Outer>,
+}
+
+/// What a joint point does to a node of the element.
+struct JointShare {
+    point: usize,
+    /// number of the node in the element
+    local: usize,
+    /// N there
+    n: f64,
+    /// the part of the point's area that belongs to this element [m^2]
+    area: f64,
 }
 
 /// One line's or face's share of a load.
@@ -120,9 +130,11 @@ impl Ring {
                 n if [before.middle, after.middle].contains(&Some(n)) => Some(0.5),
                 _ => None,
             };
-            let points = elements.iter().flat_map(|e| e.joints.iter().map(|&(point, at, _)| (point, e.nodes[at])));
-            let mut joints: Vec<(usize, f64)> = points.filter_map(|(point, n)| Some((point, part(n)?))).collect();
-            joints.sort_unstable_by_key(|&(point, _)| point);
+            let of_element =
+                |e: &Element, joint: &JointShare| Some((joint.point, part(e.nodes[joint.local])? * joint.area));
+            let joints = elements.iter().flat_map(|e| e.joints.iter().filter_map(move |joint| of_element(e, joint)));
+            let mut joints: Vec<(usize, f64)> = joints.collect();
+            joints.sort_by_key(|&(point, _)| point);
             let (inner, outer) = shape.faces();
             Ray {
                 angle: ray.angle,
@@ -161,7 +173,7 @@ impl Ring {
                 moment: forces[i][2],
                 hoop: [0, 1].map(|face| ray.hoop_stress(face, system, state)),
                 displacement: [moved.dot(&radial), moved.dot(&along)],
-                traction: ray.traction(system, state).unwrap_or((outside[i] / ray.area).into()),
+                traction: ray.traction(state).unwrap_or((outside[i] / ray.area).into()),
             }
         };
         self.rays.iter().enumerate().map(section).collect()
@@ -208,9 +220,9 @@ impl Element {
     /// Sum of N area R' t over its joint points [N].
     fn joint_force(&self, system: &System, state: &State) -> DVector<f64> {
         let mut force = DVector::zeros(2 * self.nodes.len());
-        for &(point, local, n) in &self.joints {
+        for &JointShare { point, local, n, area } in &self.joints {
             let at = &system.interface.points[point];
-            let part = at.rotation().transpose() * state.joints[point].traction * (n * at.area);
+            let part = at.rotation().transpose() * state.joints[point].traction * (n * area);
             force[2 * local] += part[0];
             force[2 * local + 1] += part[1];
         }
@@ -225,11 +237,10 @@ impl Ray {
     }
 
     /// (sigma_n, tau) of its joint points, their mean; none if it has no joints.
-    fn traction(&self, system: &System, state: &State) -> Option<[f64; 2]> {
-        let area = |&(p, part): &(usize, f64)| part * system.interface.points[p].area;
+    fn traction(&self, state: &State) -> Option<[f64; 2]> {
         let mean = |k: usize| {
-            let sum: f64 = self.joints.iter().map(|joint| area(joint) * state.joints[joint.0].traction[k]).sum();
-            sum / self.joints.iter().map(area).sum::<f64>()
+            let sum: f64 = self.joints.iter().map(|&(point, area)| area * state.joints[point].traction[k]).sum();
+            sum / self.joints.iter().map(|(_, area)| area).sum::<f64>()
         };
         (!self.joints.is_empty()).then(|| [mean(1), mean(0)])
     }
@@ -351,11 +362,13 @@ fn add_loads(elements: &mut [Element], model: &Model) {
 
 fn add_joints(elements: &mut [Element], shape: &RingShape, model: &Model, system: &System) {
     for (number, point) in system.interface.points.iter().enumerate() {
-        let body_cell = model.joints[point.joint].body_cell;
-        let Some(i) = shape.sectors.iter().position(|&(cell, _)| cell == body_cell) else { continue };
-        for &(pair, n) in &point.share {
-            let local = elements[i].nodes.iter().position(|&node| node == model.pairs[pair].body);
-            elements[i].joints.extend(local.map(|local| (number, local, n)));
+        for &(joint, area) in &point.parts {
+            let body_cell = model.joints[joint].body_cell;
+            let Some(i) = shape.sectors.iter().position(|&(cell, _)| cell == body_cell) else { continue };
+            for &(pair, n) in &point.share {
+                let local = elements[i].nodes.iter().position(|&node| node == model.pairs[pair].body);
+                elements[i].joints.extend(local.map(|local| JointShare { point: number, local, n, area }));
+            }
         }
     }
 }

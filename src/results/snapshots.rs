@@ -26,27 +26,27 @@ pub struct Snapshots {
     /// the largest so far
     pub motion: Motion,
     /// none where no frames are asked for
-    frames: Option<(Grid, Series)>,
+    frames: Option<(Arc<Grid>, Series)>,
     /// time spent on all of it
     pub busy: Duration,
 }
 
 impl Snapshots {
-    /// Into `folder`: rings.csv, and with `frames` NAME.pvd and frames/.
+    /// Into `folder`: rings.csv, and on a `grid` frames, NAME.pvd and frames/.
     pub fn new(
         model: Arc<Model>,
         system: Arc<System>,
         origin: Vec<f64>,
         folder: &Path,
         name: &str,
-        frames: bool,
+        grid: Option<Arc<Grid>>,
     ) -> Result<Snapshots> {
-        let series = || Ok::<_, Error>((Grid::new(&model, &system, &origin), Series::start(folder, name)?));
+        let series = |grid| Ok::<_, Error>((grid, Series::start(folder, name)?));
         Ok(Snapshots {
             rings: RingTable::create(&folder.join("rings.csv"), rings(&model, &system, system.rayleigh))?,
             spans: Spans::new(&model),
             motion: Motion::default(),
-            frames: frames.then(series).transpose()?,
+            frames: grid.map(series).transpose()?,
             busy: Duration::ZERO,
             model,
             system,
@@ -59,7 +59,7 @@ impl Snapshots {
         self.motion = self.motion.after(&self.spans, &self.model.mesh, &self.system, state);
         self.rings.record(&self.model, &self.system, state, &self.origin)?;
         if let Some((grid, series)) = &mut self.frames {
-            series.write(grid, &Frame::of(&self.model, &self.system, state))?;
+            series.write(grid, &Frame::of(&self.model, &self.system, state), &self.origin)?;
         }
         self.busy += start.elapsed();
         Ok(())

@@ -153,20 +153,31 @@ const ATOM: f64 = 1e-10;
 
 /// How many joint points are open, and how many slip, by more than an atom.
 pub fn open_and_slipping(interface: &Interface, state: &State, jumps: &[f64]) -> (usize, usize) {
-    let points = || interface.points.iter().zip(&state.joints);
+    let points = interface.points.iter().zip(&state.joints);
     let gap = |p: &JointPoint| interface.local(p, jumps)[1] + p.law.gap;
-    let open = points().filter(|(p, j)| j.status.is_open() && gap(p) > ATOM).count();
-    let slipping = points().filter(|(_, j)| j.status.is_slipping() && j.slip.abs() > ATOM).count();
-    (open, slipping)
+    points.fold((0, 0), |(open, slipping), (p, j)| {
+        let opens = j.status.is_open() && gap(p) > ATOM;
+        let slips = j.status.is_slipping() && j.slip.abs() > ATOM;
+        (open + usize::from(opens) * p.parts.len(), slipping + usize::from(slips) * p.parts.len())
+    })
 }
 
 impl ContactRecord {
-    pub fn after(self, interface: &Interface, old: &State, new: &State, jumps: &[f64]) -> ContactRecord {
+    /// After a step to a `new` state with these jumps, where [`open_and_slipping`] finds so many points.
+    pub fn after(
+        self,
+        interface: &Interface,
+        old: &State,
+        new: &State,
+        jumps: &[f64],
+        (open, slipping): (usize, usize),
+    ) -> ContactRecord {
         let points = interface.points.iter().zip(&new.joints);
         let gaps = points.clone().map(|(p, _)| interface.local(p, jumps)[1] + p.law.gap);
         let slips = points.filter(|(_, j)| !j.status.is_open()).map(|(_, j)| j.slip.abs());
-        let changes = old.joints.iter().zip(&new.joints).filter(|(o, n)| o.status != n.status).count();
-        let (open, slipping) = open_and_slipping(interface, new, jumps);
+        let changed =
+            old.joints.iter().zip(&new.joints).zip(&interface.points).filter(|((o, n), _)| o.status != n.status);
+        let changes: usize = changed.map(|(_, p)| p.parts.len()).sum();
         ContactRecord {
             max_open: gaps.fold(self.max_open, f64::max),
             max_slip: slips.fold(self.max_slip, f64::max),

@@ -20,17 +20,18 @@ fn rule(integration: Integration, nodes: usize) -> Vec<(f64, f64)> {
     }
 }
 
-/// An integration point of a joint element.
+/// An integration point of a joint element, or of all that have one at this place and would all answer alike: those of one
+/// law that meet in a node of a smooth curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointPoint {
-    /// which joint element of the model
-    pub joint: usize,
+    /// its elements (number in the model, their part of the area [m^2]), at least one
+    pub parts: Vec<(usize, f64)>,
     pub law: JointLaw,
     /// (pair, N) of the pairs that share in the jump here
     pub share: Vec<(usize, f64)>,
     /// unit normal from the body into the ground
     pub normal: [f64; 2],
-    /// length times 1 m of depth that it stands for [m^2]
+    /// length times 1 m of depth that it stands for, all parts together [m^2]
     pub area: f64,
     /// where it lies [m]
     pub at: [f64; 2],
@@ -91,7 +92,12 @@ impl Interface {
             .collect();
         let count = places.iter().flatten().flatten().count();
         let seeing = |point: JointPoint| JointPoint { seen: seen(&point, places), ..point };
-        Interface { count, points: with_common_normals(points).into_iter().map(seeing).collect() }
+        Interface { count, points: united(with_common_normals(points)).into_iter().map(seeing).collect() }
+    }
+
+    /// Integration points of all joint elements, each counted by itself.
+    pub fn element_points(&self) -> usize {
+        self.points.iter().map(|point| point.parts.len()).sum()
     }
 
     /// R N j: (tangential, normal) jump at a point [as j].
@@ -168,6 +174,30 @@ fn with_common_normals(points: Vec<JointPoint>) -> Vec<JointPoint> {
     smooth
 }
 
+/// One point for all that see one pair from one side under one law.
+fn united(points: Vec<JointPoint>) -> Vec<JointPoint> {
+    let mut united: Vec<JointPoint> = Vec::new();
+    let mut at_pair: HashMap<usize, Vec<usize>> = HashMap::new();
+    for point in points {
+        let alike = |&&i: &&usize| (united[i].normal, united[i].law) == (point.normal, point.law);
+        let known = match point.share[..] {
+            [(pair, _)] => at_pair.entry(pair).or_default(),
+            _ => &mut vec![],
+        };
+        match known.iter().find(alike) {
+            Some(&i) => {
+                united[i].area += point.area;
+                united[i].parts.extend(point.parts);
+            }
+            None => {
+                known.push(united.len());
+                united.push(point);
+            }
+        }
+    }
+    united
+}
+
 /// The joint runs anticlockwise round the body, so the outward normal is the tangent turned by -90 degrees.
 fn joint_point(number: usize, joint: &Joint, law: JointLaw, at: &[[f64; 2]], r: f64, weight: f64) -> JointPoint {
     let functions = joint.shape.functions([r, 0.]);
@@ -176,7 +206,7 @@ fn joint_point(number: usize, joint: &Joint, law: JointLaw, at: &[[f64; 2]], r: 
     let det = tangent[0].hypot(tangent[1]);
     let share = joint.pairs.iter().zip(&functions).map(|(&p, f)| (p, f.0));
     JointPoint {
-        joint: number,
+        parts: vec![(number, det * weight)],
         law,
         share: share.filter(|(_, n)| *n != 0.).collect(),
         normal: [tangent[1] / det, -tangent[0] / det],

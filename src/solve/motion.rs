@@ -38,37 +38,37 @@ impl Motion {
 /// The motion of each case after a step from its `old` state to the displacements x, with `room` in each vector, and what
 /// the matrices are multiplied by: a row for each unknown and a last one that stands for nothing.
 pub fn moved<const K: usize>(law: Law, x: &Lanes<K>, old: &[&State], room: usize) -> (Vec<Motion>, Vec<Factors<K>>) {
-    let with_room = |_| Motion { vectors: [0; 3].map(|_| Vec::with_capacity(room)), finite: true };
-    let mut motions: Vec<Motion> = old.iter().map(with_room).collect();
+    let mut vectors: Vec<[Vec<f64>; 3]> = old.iter().map(|_| [0; 3].map(|_| Vec::with_capacity(room))).collect();
     let mut factors = Vec::with_capacity(x.len() + 1);
-    let mut tile = [[[0.; K]; 3]; TILE];
+    let mut spoilt = [0.; K];
+    let mut tile = [[[0.; K]; TILE]; 3];
     for (number, x) in x.chunks(TILE).enumerate() {
-        let start = TILE * number;
+        let here = TILE * number..TILE * number + x.len();
         for (k, State { q, v, a, .. }) in old.iter().enumerate() {
-            let [q, v, a] = [q, v, a].map(|of_all| &of_all[start..][..x.len()]);
-            for (row, i) in tile.iter_mut().zip(0..x.len()) {
-                (row[0][k], row[1][k], row[2][k]) = (q[i], v[i], a[i]);
+            for (rows, vector) in tile.iter_mut().zip([q, v, a]) {
+                rows.iter_mut().zip(&vector[here.clone()]).for_each(|(row, x)| row[k] = *x);
             }
         }
-        on_widest(Follow { law, x, motions: &mut tile, factors: &mut factors });
-        for (k, Motion { vectors, finite }) in motions.iter_mut().enumerate() {
-            for (m, vector) in vectors.iter_mut().enumerate() {
-                vector.extend(tile[..x.len()].iter().map(|row| row[m][k]));
-                // all of them: a loop that may stop in the middle takes one at a time
-                *finite &= vector[start..].iter().fold(true, |finite, &x| finite & is_finite(x));
+        on_widest(Follow { law, x, motions: &mut tile, factors: &mut factors, spoilt: &mut spoilt });
+        for (k, vectors) in vectors.iter_mut().enumerate() {
+            for (vector, rows) in vectors.iter_mut().zip(&tile) {
+                vector.extend(rows[..x.len()].iter().map(|row| row[k]));
             }
         }
     }
     factors.push(Factors::ZERO);
-    (motions, factors)
+    let motion = |(vectors, spoilt)| Motion { vectors, finite: spoilt == 0. };
+    (vectors.into_iter().zip(spoilt).map(motion).collect(), factors)
 }
 
 /// Takes some unknowns' motions (u, v, a) to the displacements x, and appends what the matrices are multiplied by.
 struct Follow<'a, const K: usize> {
     law: Law,
     x: &'a Lanes<K>,
-    motions: &'a mut [[[f64; K]; 3]],
+    motions: &'a mut [[[f64; K]; TILE]; 3],
     factors: &'a mut Vec<Factors<K>>,
+    /// 1 where a number is not as [`is_finite`] says
+    spoilt: &'a mut [f64; K],
 }
 
 impl<const K: usize> Kernel for Follow<'_, K> {
@@ -76,17 +76,24 @@ impl<const K: usize> Kernel for Follow<'_, K> {
 
     #[inline(always)]
     fn run(self) {
-        for (u, motion) in self.x.iter().zip(self.motions) {
-            let (now, factors) = follow(self.law, u, motion);
-            *motion = now;
-            self.factors.push(factors);
-        }
+        let [q, v, a] = self.motions;
+        let unknowns = self.x.iter().zip(q).zip(v).zip(a);
+        self.factors.extend(unknowns.map(|(((u, q), v), a)| {
+            let (now, factors) = follow(self.law, u, [*q, *v, *a]);
+            [*q, *v, *a] = now;
+            for of_cases in now {
+                for k in 0..K {
+                    self.spoilt[k] = if is_finite(of_cases[k]) { self.spoilt[k] } else { 1. };
+                }
+            }
+            factors
+        }));
     }
 }
 
 /// (u, v, a) of an unknown in all cases, and what the matrices are multiplied by there.
 #[inline(always)]
-fn follow<const K: usize>(law: Law, u: &[f64; K], before: &[[f64; K]; 3]) -> ([[f64; K]; 3], Factors<K>) {
+fn follow<const K: usize>(law: Law, u: &[f64; K], before: [[f64; K]; 3]) -> ([[f64; K]; 3], Factors<K>) {
     let (mut motions, mut factors) = ([[0.; K]; 3], Factors::ZERO);
     for k in 0..K {
         let v_before = before[1][k];

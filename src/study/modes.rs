@@ -35,12 +35,12 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     let folder = folder.join("modes");
     file::create_folder(&folder)?;
     let rest = State::at_rest(&prepared.system);
-    let grid = Grid::new(&prepared.model, &prepared.system, &rest.q);
+    let grid = Grid::new(&prepared.model, &prepared.system);
     let mut table = String::from("mode  frequency [Hz]  file\n");
     for (i, mode) in modes.iter().enumerate() {
         let shape = State { q: mode.shape.clone(), ..rest.clone() };
         let path = folder.join(format!("{}_mode_{}.vtu", case.name(), i + 1));
-        file::replace(&path, grid.vtu(&Frame::of(&prepared.model, &prepared.system, &shape))?.as_bytes())?;
+        file::replace(&path, grid.vtu(&Frame::of(&prepared.model, &prepared.system, &shape), &rest.q)?.as_bytes())?;
         table += &format!("{:4}  {:14.6}  {}\n", i + 1, mode.frequency, path.display());
     }
     Ok(table)

@@ -3,6 +3,7 @@
 use super::prepare::Prepared;
 use crate::Result;
 use crate::results::folder::{Folder, STATUS};
+use crate::results::frame::Grid;
 use crate::results::histories::Histories;
 use crate::results::lines::Lines;
 use crate::results::snapshots::{Photographer, Snapshots};
@@ -13,6 +14,7 @@ use crate::solve::energy::Ledger;
 use crate::solve::step::Step;
 use crate::solve::system::State;
 use std::fmt::Write as _;
+use std::sync::Arc;
 use std::time::Instant;
 
 pub struct Recorder<'a> {
@@ -42,17 +44,17 @@ pub enum Ending {
 }
 
 impl<'a> Recorder<'a> {
-    /// Opens the files and records the state at t = 0.
+    /// Opens the files and records the state at t = 0; frames are written where there is a `grid` for them.
     pub fn start(
         prepared: &'a Prepared,
         folder: &'a Folder,
         state: &State,
         origin: Vec<f64>,
-        frames: bool,
+        grid: Option<Arc<Grid>>,
     ) -> Result<Recorder<'a>> {
         let Prepared { model, system, .. } = prepared;
         let snapshots =
-            Snapshots::new(model.clone(), system.clone(), origin.clone(), folder.path(), folder.name(), frames)?;
+            Snapshots::new(model.clone(), system.clone(), origin.clone(), folder.path(), folder.name(), grid)?;
         let status = Lines::create(&folder.file(STATUS), STATUS_HEADER.into())?;
         let mut recorder = Recorder {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
@@ -80,10 +82,11 @@ impl<'a> Recorder<'a> {
         for step in steps {
             let (old, new) = (last.state(), step.state());
             self.ledger = self.ledger.after(system, old, new, step.forms);
-            self.contact = self.contact.after(&system.interface, old, new, system.jumps(&new.q));
+            let points = open_and_slipping(&system.interface, new, system.jumps(&new.q));
+            self.contact = self.contact.after(&system.interface, old, new, system.jumps(&new.q), points);
             self.iterations += step.iterations;
             self.steps += 1;
-            self.write_status(number, old, &step);
+            self.write_status(number, old, &step, points);
             last = step;
         }
         self.histories.record(&system.unknowns, last.state(), &self.origin);
@@ -106,9 +109,7 @@ impl<'a> Recorder<'a> {
         self.status.flush()
     }
 
-    fn write_status(&mut self, number: usize, old: &State, step: &Step) {
-        let system = &self.prepared.system;
-        let (open, slipping) = open_and_slipping(&system.interface, step.state(), system.jumps(&step.state().q));
+    fn write_status(&mut self, number: usize, old: &State, step: &Step, (open, slipping): (usize, usize)) {
         let e = &self.ledger.now;
         let left =
             self.started.elapsed().as_secs_f64() / number as f64 * (self.prepared.model.time.steps - number) as f64;

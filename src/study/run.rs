@@ -14,6 +14,7 @@ use crate::model::initial::Initial;
 use crate::model::resolve::Model;
 use crate::number::seconds;
 use crate::results::folder::Folder;
+use crate::results::frame::Grid;
 use crate::results::summary::Timing;
 use crate::solve::law::Scheme;
 use crate::solve::march::March;
@@ -127,7 +128,8 @@ pub fn command(request: &Request) -> Result<String> {
     let folder = Folder::prepare(&path, &case.name())?;
     replaced.iter().for_each(|sentence| screen.say(sentence));
     let solve = || {
-        let mut recorder = Recorder::start(&prepared, &folder, &state, origin, true)?;
+        let grid = Grid::new(&prepared.model, &prepared.system);
+        let mut recorder = Recorder::start(&prepared, &folder, &state, origin, Some(grid.into()))?;
         let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
         let mut summary = recorder.finish(ending, inputs, &case.title, timing)?;
         summary.timing.total_s = started.elapsed().as_secs_f64();

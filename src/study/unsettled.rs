@@ -3,6 +3,7 @@
 use super::prepare::Prepared;
 use crate::Error;
 use crate::model::case::Analysis;
+use crate::model::split::Seam;
 use crate::number::seconds;
 use crate::physics::joint::Status;
 use crate::solve::march::MAX_CUTS;
@@ -54,8 +55,7 @@ fn moving_bodies(prepared: &Prepared, unsettled: &Unsettled) -> Vec<String> {
     let (Unsettled::Statuses { last, .. } | Unsettled::Residual { last, .. }) = unsettled else { return vec![] };
     let model = &prepared.model;
     let sentence = |body: &String| {
-        let of_body =
-            |&i: &usize| model.seams[model.joints[prepared.system.interface.points[i].joint].seam].body == *body;
+        let of_body = |&i: &usize| seam(prepared, i).body == *body;
         let points: Vec<usize> = (0..last.len()).filter(of_body).collect();
         let slipping: Vec<usize> = points.iter().copied().filter(|&i| last[i].is_slipping()).collect();
         let held = points.iter().any(|&i| last[i] == Status::Stick);
@@ -113,13 +113,17 @@ fn advice(unsettled: &Unsettled, otherwise: &str) -> String {
     }
 }
 
+/// The interface that a joint point lies on.
+fn seam(prepared: &Prepared, point: usize) -> &Seam {
+    let (joint, _) = prepared.system.interface.points[point].parts[0];
+    &prepared.model.seams[prepared.model.joints[joint].seam]
+}
+
 /// Up to six places of joint points; neighbouring joints have a point each at their common corner.
 fn places(prepared: &Prepared, points: &[usize]) -> String {
-    let model = &prepared.model;
     let place = |&i: &usize| {
-        let point = &prepared.system.interface.points[i];
-        let [x, y] = point.at;
-        format!("{} at ({x:.4}, {y:.4}) m", model.seams[model.joints[point.joint].seam].curve)
+        let [x, y] = prepared.system.interface.points[i].at;
+        format!("{} at ({x:.4}, {y:.4}) m", seam(prepared, i).curve)
     };
     let mut places: Vec<String> = points.iter().map(place).collect();
     places.sort_unstable();

@@ -3,6 +3,7 @@
 use super::group::{Ended, Tell};
 use super::job::Job;
 use crate::results::folder::Folder;
+use crate::results::frame::Grid;
 use crate::results::summary::Timing;
 use crate::solve::march::March;
 use crate::solve::step::Step;
@@ -12,6 +13,7 @@ use crate::study::recorder::{Ending, Recorder};
 use crate::study::run::{at_start, interrupted, under_gravity};
 use crate::study::unsettled;
 use crate::{Error, Result};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// A run that is ready to begin.
@@ -30,11 +32,11 @@ struct Running<'a, 'b> {
     began: Instant,
 }
 
-/// Each into its folder, with the matrices of `lead` and the factor of `march`.
+/// Each into its folder, with the matrices of `lead`, the factor of `march` and, where frames are asked for, their `grid`.
 ///
 /// # Errors
 /// Results cannot be written. What keeps single runs from their end is told.
-pub fn solve(jobs: &[Job], lead: &Prepared, march: &March, frames: bool, tell: Tell) -> Result<()> {
+pub fn solve(jobs: &[Job], lead: &Prepared, march: &March, grid: Option<&Arc<Grid>>, tell: Tell) -> Result<()> {
     let (mut ended, mut ready, mut starts) = (vec![], vec![], vec![]);
     for job in jobs {
         match begin(job, lead) {
@@ -45,7 +47,7 @@ pub fn solve(jobs: &[Job], lead: &Prepared, march: &March, frames: bool, tell: T
             Err(why) => ended.push((job, Err(why))),
         }
     }
-    let solved = march_all(&ready, starts, march, frames, &mut ended);
+    let solved = march_all(&ready, starts, march, grid, &mut ended);
     tell(ended);
     solved
 }
@@ -54,13 +56,13 @@ fn march_all<'a>(
     ready: &[Ready<'a>],
     starts: Vec<Start>,
     march: &March,
-    frames: bool,
+    grid: Option<&Arc<Grid>>,
     ended: &mut Ended<'a>,
 ) -> Result<()> {
     let began = Instant::now();
     let (mut running, mut states) = (Vec::new(), Vec::new());
     for (run, (state, origin)) in ready.iter().zip(starts) {
-        let recorder = Recorder::start(&run.prepared, &run.folder, &state, origin, frames)?;
+        let recorder = Recorder::start(&run.prepared, &run.folder, &state, origin, grid.cloned())?;
         running.push(Running { run, march: march.sharing_factor(&run.prepared.system), recorder, began });
         states.push(Step::start(state));
     }

@@ -3,6 +3,7 @@
 
 use super::batch;
 use super::job::Job;
+use crate::results::frame::Grid;
 use crate::results::summary::Summary;
 use crate::solve::step::MOST_TOGETHER;
 use crate::study::prepare::Prepared;
@@ -10,7 +11,7 @@ use crate::study::run::{interrupted, new_march};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::num::NonZero;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 /// How runs ended.
 pub type Ended<'a> = Vec<(&'a Job, Result<Summary>)>;
@@ -50,12 +51,13 @@ pub fn solve(jobs: &[Job], frames: bool, tell: Tell) -> Result<()> {
         Ok(march) => march,
         Err(why) => return none_can(why),
     };
+    let grid = frames.then(|| Arc::new(Grid::new(&lead.model, &lead.system)));
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
     let queue = Mutex::new(jobs.chunks(jobs.len().div_ceil(threads).min(MOST_TOGETHER)));
     let work = || {
         while !interrupted() {
             let Some(batch) = queue.lock().expect("no thread panics with it").next() else { break };
-            if let Err(why) = batch::solve(batch, &lead, &march, frames, tell) {
+            if let Err(why) = batch::solve(batch, &lead, &march, grid.as_ref(), tell) {
                 *queue.lock().expect("likewise") = [].chunks(1);
                 return Err(why);
             }
