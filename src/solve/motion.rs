@@ -77,17 +77,15 @@ impl<const K: usize> Kernel for Follow<'_, K> {
     #[inline(always)]
     fn run(self) {
         let [q, v, a] = self.motions;
-        let unknowns = self.x.iter().zip(q).zip(v).zip(a);
-        self.factors.extend(unknowns.map(|(((u, q), v), a)| {
+        for (((u, q), v), a) in self.x.iter().zip(q).zip(v).zip(a) {
             let (now, factors) = follow(self.law, u, [*q, *v, *a]);
             [*q, *v, *a] = now;
-            for of_cases in now {
-                for k in 0..K {
-                    self.spoilt[k] = if is_finite(of_cases[k]) { self.spoilt[k] } else { 1. };
-                }
+            self.factors.push(factors);
+            for k in 0..K {
+                let finite = is_finite(now[0][k]) & is_finite(now[1][k]) & is_finite(now[2][k]);
+                self.spoilt[k] = if finite { self.spoilt[k] } else { 1. };
             }
-            factors
-        }));
+        }
     }
 }
 
