@@ -209,7 +209,8 @@ fn column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip) -> Resul
             tags: (1..=strip.points.len()).collect(),
             cells: strip.faces.clone(),
             ..Mesh::default()
-        },
+        }
+        .into(),
         material_of: lines.iter().map(|line| model.material_of[line.face]).collect(),
         fixed: strip.origin.iter().map(|&n| [true, model.fixed[n][1]]).collect(),
         absorbers: base.into_iter().collect(),
@@ -218,8 +219,8 @@ fn column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip) -> Resul
         gravity: 0.,
         seams: vec![],
         bodies: vec![],
-        pairs: vec![],
-        joints: vec![],
+        pairs: [].into(),
+        joints: [].into(),
         laws: vec![],
         probes: vec![],
         free_fields: vec![],

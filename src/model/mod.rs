@@ -14,6 +14,7 @@ mod loads;
 pub mod mesh;
 pub mod moving_front;
 pub mod msh;
+pub mod openings;
 mod plane;
 pub mod probes;
 pub mod quality;

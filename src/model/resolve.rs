@@ -8,25 +8,24 @@ use super::initial::{Initial, initial};
 use super::loads::loads;
 use super::mesh::Mesh;
 use super::moving_front::MovingFront;
+use super::openings::Openings;
 use super::probes::{NodeProbe, probes};
-use super::quality;
 use super::sampled::unseen;
-use super::sides::solid_sides;
-use super::split::{self, Joint, Opened, Pair, Seam};
+use super::split::{Joint, Opened, Pair, Seam};
 use crate::number::seconds;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
 use crate::physics::shape::Shape;
-use crate::threads::both;
 use crate::{Error, Result};
 use std::collections::{BTreeSet, HashSet};
+use std::sync::Arc;
 
 /// Everything the equations need, by index.
 #[derive(Debug, Clone)]
 pub struct Model {
-    /// with its interfaces open, unless the case is bonded
-    pub mesh: Mesh,
+    /// with its interfaces open, unless the case is bonded; what is counted by reference belongs to all cases on it
+    pub mesh: Arc<Mesh>,
     /// (face group, material)
     pub materials: Vec<(String, Material)>,
     /// for each cell the index of its material, none for lines and points
@@ -37,8 +36,8 @@ pub struct Model {
     pub seams: Vec<Seam>,
     /// names of the interfaces' bodies, each once; also where the case is bonded
     pub bodies: Vec<String>,
-    pub pairs: Vec<Pair>,
-    pub joints: Vec<Joint>,
+    pub pairs: Arc<[Pair]>,
+    pub joints: Arc<[Joint]>,
     /// for each joint
     pub laws: Vec<(JointLaw, Integration)>,
     /// for each node and axis
@@ -103,18 +102,20 @@ impl Model {
     /// Errors name the group or the place: groups that do not exist, faces without material, joints without friction,
     /// loads that lie inside the solid.
     pub fn new(case: &Case, mesh: &Mesh, bonded: bool) -> Result<Model> {
+        Model::opened(case, mesh, bonded, &Openings::default())
+    }
+
+    /// Likewise, with what is known of the mesh's `openings`.
+    pub fn opened(case: &Case, mesh: &Mesh, bonded: bool, openings: &Openings) -> Result<Model> {
         let mut warnings = Vec::new();
         let (materials, material_of) = materials(case, mesh, &mut warnings)?;
         let interfaces = seams(case, mesh, &mut warnings);
         let bodies: BTreeSet<String> = interfaces.iter().map(|seam| seam.body.clone()).collect();
         let seams = if bonded { vec![] } else { interfaces };
-        let (folded, opened) = both(|| quality::refuse_folded(mesh), || split::open(mesh, &seams));
-        folded?;
-        let Opened { mesh, pairs, joints } = opened?;
+        let Opened { mesh, pairs, joints, sides } = openings.of(mesh, &seams)?;
         let law = |joint: &Joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]);
         let laws = joints.iter().map(law).collect::<Result<_>>()?;
         warnings.extend(unused_groups(case, &mesh));
-        let sides = solid_sides(&mesh);
         let loads = loads(case, &mesh, &sides, &mut warnings)?;
         let material = |face: usize| materials[material_of[face].expect("every face has a material by now")].1;
         let time = time_grid(case, &mut warnings)?;

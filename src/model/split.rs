@@ -7,6 +7,7 @@ use super::mesh::{Group, Mesh, Shape};
 use super::sides::{Edge, Sides, edge, solid_sides};
 use crate::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
 
 /// An interface to open: the group of its curve and the group of faces that is pulled off the ground.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,12 +36,14 @@ pub struct Joint {
     pub body_cell: usize,
 }
 
-/// The mesh with its interfaces open.
+/// The mesh with its interfaces open; clones share it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opened {
-    pub mesh: Mesh,
-    pub pairs: Vec<Pair>,
-    pub joints: Vec<Joint>,
+    pub mesh: Arc<Mesh>,
+    pub pairs: Arc<[Pair]>,
+    pub joints: Arc<[Joint]>,
+    /// of its faces
+    pub sides: Arc<Sides>,
 }
 
 /// Opens every seam of a conforming mesh.
@@ -60,7 +63,8 @@ pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
     let copies = copy_nodes(&mut opened, seams, &bodies, &lines);
     move_lines_and_points(mesh, &mut opened, &faces_at, &copies);
     let (pairs, joints) = joints(mesh, &lines, &faces_at, &copies);
-    Ok(Opened { mesh: opened, pairs, joints })
+    let sides = solid_sides(&opened).into();
+    Ok(Opened { mesh: opened.into(), pairs: pairs.into(), joints: joints.into(), sides })
 }
 
 fn group_of<'a>(mesh: &'a Mesh, seam: &Seam, name: &str) -> Result<&'a Group> {

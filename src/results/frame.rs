@@ -108,7 +108,7 @@ impl Grid {
             let number = model.material_of[cell].map_or(0, |m| m as i32 + 1);
             push(&mut of_face.iter().copied(), model.mesh.cells[cell].shape, number);
         }
-        for joint in &model.joints {
+        for joint in model.joints.iter() {
             push(&mut joint.pairs.iter().map(|&p| model.pairs[p].ground), joint.shape, 0);
         }
         Grid {

@@ -6,15 +6,17 @@ use super::run::Request;
 use crate::model::case::{Case, Geometry};
 use crate::model::mesh::Mesh;
 use crate::model::msh;
+use crate::model::openings::Openings;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A mesh and its story.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Meshed {
     pub mesh: Mesh,
+    pub openings: Openings,
     pub path: PathBuf,
     /// of the bytes that became `mesh`
     pub sha256: String,
@@ -52,7 +54,15 @@ pub fn obtain(case: &Case, geo: &BTreeMap<String, f64>, file: Option<&Path>) -> 
     };
     let name = msh::file_name(&path);
     let mesh = Mesh::from_msh(&msh::parse(&content.bytes, &name)?, &name)?;
-    Ok(Meshed { mesh, path, sha256: content.sha256, told, warnings, took: start.elapsed() })
+    Ok(Meshed {
+        mesh,
+        openings: Openings::default(),
+        path,
+        sha256: content.sha256,
+        told,
+        warnings,
+        took: start.elapsed(),
+    })
 }
 
 /// A mesh before it is looked into.

@@ -90,7 +90,7 @@ pub fn load(request: &Request) -> Result<Loaded> {
 }
 
 pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool) -> Result<Model> {
-    let mut model = Model::new(case, &meshed.mesh, bonded)?;
+    let mut model = Model::opened(case, &meshed.mesh, bonded, &meshed.openings)?;
     model.warnings.extend(idle(case, &model));
     model.warnings.extend(meshed.warnings.iter().cloned());
     Ok(model)
