@@ -5,11 +5,12 @@ mod support;
 
 use coralpipe::model::case::Newton;
 use coralpipe::model::mesh::Mesh;
+use coralpipe::model::openings::Openings;
 use coralpipe::model::resolve::Model;
 use coralpipe::physics::joint::{Friction, JointLaw, Status};
 use coralpipe::solve::system::System;
 use serde_json::{Value, json};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use support::{Run, peak, root, run_twin_pipes};
 
 /// The default case, run once for all tests.
@@ -88,18 +89,39 @@ fn nothing_moves_without_a_load() {
 }
 
 /// The small ground with one pipe, pressed so slowly that waves have left it in a step: no joint is ever pulled.
-fn slowly_pressed(bonded: bool) -> Model {
+fn slowly_pressed_case() -> Value {
     let material = |young: f64, poisson: f64, density: f64| json!({ "young": young, "poisson": poisson, "density": density, "friction": 0.3 });
-    let json: Value = json!({
+    json!({
         "materials": { "layer_1": material(183e6, 0.46, 2200.), "layer_2": material(519e6, 0.38, 2600.),
                        "layer_3": material(863e6, 0.27, 2700.), "pipe_left": material(210e9, 0.3, 7800.) },
         "interfaces": { "interface_left": { "body": "pipe_left" } },
         "supports": { "base": ["x", "y"], "side_left": ["x"], "side_right": ["x"] },
         "loads": { "surface": { "pressure": { "law": "table", "times": [0, 0.1], "values": [0, 1e5] } } },
         "time": { "step": 5e-3, "end": 0.15 },
-    });
-    let mesh = Mesh::read(&root().join("tests/meshes/one_ring.msh")).unwrap();
-    Model::new(&support::case(&json), &mesh, bonded).unwrap()
+    })
+}
+
+fn slowly_pressed(bonded: bool) -> Model {
+    Model::new(&support::case(&slowly_pressed_case()), &one_ring(), bonded).unwrap()
+}
+
+fn one_ring() -> Mesh {
+    Mesh::read(&root().join("tests/meshes/one_ring.msh")).unwrap()
+}
+
+/// What is open depends on the interfaces that are to be, bonded or not; equal ones share one mesh.
+#[test]
+fn cases_with_the_same_interfaces_share_the_open_mesh() {
+    let (mesh, openings) = (one_ring(), Openings::default());
+    let model = |friction: f64, bonded: bool| {
+        let mut json = slowly_pressed_case();
+        json["interfaces"]["interface_left"]["friction"] = friction.into();
+        Model::opened(&support::case(&json), &mesh, bonded, &openings).unwrap()
+    };
+    let [first, glued, second] = [model(0.1, false), model(0.1, true), model(0.4, false)];
+    assert!(Arc::ptr_eq(&first.mesh, &second.mesh) && Arc::ptr_eq(&first.joints, &second.joints));
+    assert!(first.mesh.points.len() > glued.mesh.points.len() && glued.joints.is_empty());
+    assert!(first.laws[0].0.friction != second.laws[0].0.friction, "what differs is not shared");
 }
 
 /// Displacements of the ground's and pipe's original nodes at every step.
