@@ -4,8 +4,8 @@
 //! One folder is one floor, and imports go down only:
 //! `study -> results -> solve -> model -> physics`, with `sparse` beside `physics` at the bottom.
 //!
-//! Conventions, said once: SI units; `x` right, `y` up; tension positive; a joint's normal points from the body
-//! into the ground and its gap is positive when open; thickness out of the plane is 1 m; `dof(node n, axis i) = 2n + i`.
+//! Conventions, said once: SI units; `x` right, `y` up; tension positive; a joint's normal points from the body into
+//! the ground and its gap is positive when open; thickness out of the plane is 1 m; `dof(node n, axis i) = 2n + i`.
 
 pub mod error;
 pub mod model;

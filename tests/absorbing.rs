@@ -1,5 +1,5 @@
-//! Boundaries that let waves out: what they return at each angle, the free field beyond the sides, static reactions, and
-//! the sentence for each misuse.
+//! Boundaries that let waves out: what they return at each angle, the free field beyond the sides, static reactions,
+//! and the sentence for each misuse.
 
 mod program;
 mod support;
@@ -16,7 +16,8 @@ use serde_json::{Value, json};
 use std::f64::consts::PI;
 use support::{Drawing, node_at, peak, run_twin_pipes};
 
-/// Ground of rectangles between the given x and y, from the left and from the bottom up: `ground_1` below the middle row,
+/// Ground of rectangles between the given x and y, from the left and from the bottom up: `ground_1` below the middle
+/// row,
 /// `ground_2` above it; curves base, surface, left, right.
 fn ground(shape: Shape, xs: &[f64], ys: &[f64]) -> Mesh {
     let mut drawing = Drawing::default();
@@ -95,8 +96,8 @@ fn motion(json: &Value, mesh: &Mesh, rayleigh: Rayleigh) -> (Vec<Vec<[f64; 2]>>,
     (rows, last.unwrap().1)
 }
 
-/// What steps read in place of M and C, dashpots among it: B x + C y, v'M v, w'C w. alpha beta = .15, so that the terms of
-/// second order count; 1e-14: sums of some forty products.
+/// What steps read in place of M and C, dashpots among it: B x + C y, v'M v, w'C w. alpha beta = .15, so that the terms
+/// of second order count; 1e-14: sums of some forty products.
 #[test]
 fn what_steps_read_is_mass_and_damping_with_the_dashpots() {
     let json = case(&json!({ "boundaries": { "base": "viscous" }, "supports": { "left": ["x"], "right": ["x"] } }));
@@ -114,8 +115,8 @@ fn what_steps_read_is_mass_and_damping_with_the_dashpots() {
     assert!((kinetic / whole[0] - 1.).abs() < 1e-14 && (drained / whole[1] - 1.).abs() < 1e-14, "{kinetic} {drained}");
 }
 
-/// Under a uniform load the ground between free-field sides is the strip between rollers, exactly: the coupling uses the
-/// mesh's own shape functions, mass and damping. 1e-10 of the peak is round-off of 240 steps.
+/// Under a uniform load the ground between free-field sides is the strip between rollers, exactly: the coupling uses
+/// the mesh's own shape functions, mass and damping. 1e-10 of the peak is round-off of 240 steps.
 #[test]
 fn free_field_sides_keep_every_column_the_one_dimensional_one() {
     let wide = [0., 1.5, 4., 6.];
@@ -187,8 +188,8 @@ fn speeds() -> [f64; 2] {
     [1.2f64.sqrt(), 0.4f64.sqrt()]
 }
 
-/// Amplitudes (P, S) that dashpots rho c_p, rho c_s return of a plane P wave of amplitude 1 at this angle from the normal:
-/// sigma_xy = rho c_s v_x and sigma_yy = rho c_p v_y of the three waves together (Lysmer and Kuhlemeyer 1969).
+/// Amplitudes (P, S) that dashpots rho c_p, rho c_s return of a plane P wave of amplitude 1 at this angle from the
+/// normal: sigma_xy = rho c_s v_x and sigma_yy = rho c_p v_y of the three waves together (Lysmer and Kuhlemeyer 1969).
 fn returned(angle: f64) -> [f64; 2] {
     let [c_p, c_s] = speeds();
     let (mu, lambda) = (c_s * c_s, c_p * c_p - 2. * c_s * c_s);
@@ -204,8 +205,8 @@ fn returned(angle: f64) -> [f64; 2] {
     [found[0], found[1]]
 }
 
-/// Amplitudes of P up, S down and S up over that of P down, wavelength of P 1, from the motion u_x / sin(kx x), u_y / cos(kx x) at two
-/// heights.
+/// Amplitudes of P up, S down and S up over that of P down, wavelength of P 1, from the motion u_x / sin(kx x), u_y /
+/// cos(kx x) at two heights.
 fn told_apart(motion: Vector4<Complex<f64>>, heights: [f64; 2], angle: f64) -> [Complex<f64>; 3] {
     let [c_p, c_s] = speeds();
     let (s, c) = angle.sin_cos();
@@ -227,8 +228,8 @@ fn told_apart(motion: Vector4<Complex<f64>>, heights: [f64; 2], angle: f64) -> [
     [found[1] / found[0], found[2] / found[0], found[3] / found[0]]
 }
 
-/// Two plane P waves at plus and minus the angle stand between rollers half a wavelength of theirs apart and come down as
-/// a packet; what passes two heights is told apart into P and S, up and down, at the packet's own frequency.
+/// Two plane P waves at plus and minus the angle stand between rollers half a wavelength of theirs apart and come down
+/// as a packet; what passes two heights is told apart into P and S, up and down, at the packet's own frequency.
 fn measured(angle: f64) -> [Complex<f64>; 3] {
     let [c_p, _] = speeds();
     let k = 2. * PI; // wavelength 1
@@ -316,8 +317,8 @@ fn a_viscous_base_returns_of_oblique_p_waves_what_lysmers_dashpots_must() {
     }
 }
 
-/// At normal incidence: a bell-shaped P wave of 20 elements comes down a strip; less than 0.1 % of its velocity, and so of
-/// its stress rho c v, is still there when it has gone.
+/// At normal incidence: a bell-shaped P wave of 20 elements comes down a strip; less than 0.1 % of its velocity, and so
+/// of its stress rho c v, is still there when it has gone.
 #[test]
 fn a_viscous_base_returns_less_than_a_thousandth_at_normal_incidence() {
     let ys: Vec<f64> = (0..=200).map(|i| 0.05 * f64::from(i)).collect();
@@ -355,9 +356,10 @@ fn strip(depth: u32, pressure: Value, end: f64) -> (Mesh, Value) {
     (ground(Shape::Quad4, &[0., 0.5], &ys), json)
 }
 
-/// Dashpots stand for the ground below, which is damped as the rest: a base at 15 m is one at 60 m, which nothing reaches and
-/// comes back from within 100 ms (2 x 60 / 620.1 = 194 ms). The two terms are the first of a series in alpha / w and w beta;
-/// measured 0.033 % of the peak, 5.2 % without the first of them, 1.1 % without the second; of the velocity 0.11 %.
+/// Dashpots stand for the ground below, which is damped as the rest: a base at 15 m is one at 60 m, which nothing
+/// reaches and comes back from within 100 ms (2 x 60 / 620.1 = 194 ms). The two terms are the first of a series in
+/// alpha / w and w beta; measured 0.033 % of the peak, 5.2 % without the first of them, 1.1 % without the second; of
+/// the velocity 0.11 %.
 #[test]
 fn a_damped_column_does_not_know_where_its_open_base_is() {
     let damped = Rayleigh { alpha: 3.302, beta: 7.562e-4 };
@@ -377,9 +379,10 @@ fn a_damped_column_does_not_know_where_its_open_base_is() {
     }
 }
 
-/// What has left is the work of the ground above on the base, force times way; and the force is what the load leaves after
-/// moving the column, p - integral of rho (a + alpha v) dy. That holds step by step, to the round-off of 1600 steps; without
-/// damping what has left is also p v (t - H / c) behind a step, v = p / rho c, but for the front that elements spread.
+/// What has left is the work of the ground above on the base, force times way; and the force is what the load leaves
+/// after moving the column, p - integral of rho (a + alpha v) dy. That holds step by step, to the round-off of 1600
+/// steps; without damping what has left is also p v (t - H / c) behind a step, v = p / rho c, but for the front that
+/// elements spread.
 #[test]
 fn the_ledgers_boundary_is_the_work_done_on_the_base() {
     for rayleigh in [Rayleigh::default(), Rayleigh { alpha: 3.302, beta: 7.562e-4 }] {
@@ -551,8 +554,8 @@ fn a_boundary_on_an_interface_is_refused() {
     }
 }
 
-/// What is possible, and seldom meant, is said: dashpots on a loaded surface, sides whose layers are not those of the other,
-/// and calculations that go on for longer than 1 / alpha, a third of a second here.
+/// What is possible, and seldom meant, is said: dashpots on a loaded surface, sides whose layers are not those of the
+/// other, and calculations that go on for longer than 1 / alpha, a third of a second here.
 #[test]
 fn boundaries_that_are_seldom_meant_are_warned_of() {
     let said = |model: &Model, words: &str| model.warnings.iter().any(|w| w.contains(words));
@@ -598,8 +601,8 @@ fn boundaries_that_are_seldom_meant_are_warned_of() {
     assert!(said(&prepared(pulse.clone(), 3.), "1 / alpha") && !said(&prepared(pulse, 2.), "1 / alpha"));
 }
 
-/// Squares of 1 m around a stiff block, 2 m wide and from 2 to 4 m deep: velocities and displacements of its top's middle and of the
-/// surface, a row a step, under 100 kPa that fall to zero in 20 ms.
+/// Squares of 1 m around a stiff block, 2 m wide and from 2 to 4 m deep: velocities and displacements of its top's
+/// middle and of the surface, a row a step, under 100 kPa that fall to zero in 20 ms.
 fn round_a_block([width, depth]: [f64; 2], edges: Value) -> [Vec<f64>; 2] {
     let grid = |from: f64, to: f64| (0..=(to - from) as usize).map(|i| from + i as f64).collect::<Vec<f64>>();
     let (xs, ys) = (grid(-width / 2., width / 2.), grid(-depth, 0.));
@@ -630,9 +633,10 @@ fn round_a_block([width, depth]: [f64; 2], edges: Value) -> [Vec<f64>; 2] {
     [0, mesh.points.len()].map(|part| rows.iter().flat_map(|row| probes.map(|n| row[part + n][1])).collect())
 }
 
-/// c_p = 334.6 m/s: what comes back from 30 m to the left or 40 m below is late for the 80 ms, all the 80 ms hold of a box of 12 m
-/// by 8 m has met its edges many times. Measured 2.0 % of the peak displacement and 2.4 % of the peak velocity with free
-/// field and viscous base (waves that meet dashpots at a slant come back in part), 178 and 55 % with rollers and a held base.
+/// c_p = 334.6 m/s: what comes back from 30 m to the left or 40 m below is late for the 80 ms, all the 80 ms hold of a
+/// box of 12 m by 8 m has met its edges many times. Measured 2.0 % of the peak displacement and 2.4 % of the peak
+/// velocity with free field and viscous base (waves that meet dashpots at a slant come back in part), 178 and 55 % with
+/// rollers and a held base.
 #[test]
 fn a_small_box_that_lets_waves_out_is_a_large_one_and_a_rigid_box_is_not() {
     let open = json!({ "boundaries": { "base": "viscous", "left": "free_field", "right": "free_field" } });
@@ -658,8 +662,8 @@ const OPEN: [&str; 4] = [
     "supports={}",
 ];
 
-/// What held the base and the sides under gravity goes on to push: nothing moves. 1e-12 m is the round-off of a settlement of some
-/// millimetres; without the reactions the ground would sink by millimetres in the 50 ms.
+/// What held the base and the sides under gravity goes on to push: nothing moves. 1e-12 m is the round-off of a
+/// settlement of some millimetres; without the reactions the ground would sink by millimetres in the 50 ms.
 #[test]
 fn ground_on_boundaries_that_let_waves_out_stays_where_gravity_has_put_it() {
     let still = ["--set", "gravity=9.81", "--set", "loads={}", "--set", "time.end=50 ms"];
@@ -668,9 +672,9 @@ fn ground_on_boundaries_that_let_waves_out_stays_where_gravity_has_put_it() {
     assert!(run.peak() < 1e-12, "{:.1e}", run.peak());
 }
 
-/// Pipes that open and slip, gravity, Rayleigh damping, free field: the ledger closes to round-off. With one iteration of
-/// Newton some long steps are cut, and the columns with them: the motion is that of uncut steps but for what two finer steps
-/// of a hundred are worth.
+/// Pipes that open and slip, gravity, Rayleigh damping, free field: the ledger closes to round-off. With one iteration
+/// of Newton some long steps are cut, and the columns with them: the motion is that of uncut steps but for what two
+/// finer steps of a hundred are worth.
 #[test]
 fn the_ledger_counts_what_leaves_and_what_the_free_field_does() {
     let long = ["--set", "time.step=1 ms"];
@@ -694,8 +698,9 @@ fn the_ledger_counts_what_leaves_and_what_the_free_field_does() {
     }
 }
 
-/// A front that is as good as everywhere at once is the simultaneous load, in the columns too; and the warning says what a
-/// slower one is taken for. The front crosses 6 m in 6e-9 s, and the pressure rises in 5 ms: a difference of 1e-6.
+/// A front that is as good as everywhere at once is the simultaneous load, in the columns too; and the warning says
+/// what a slower one is taken for. The front crosses 6 m in 6e-9 s, and the pressure rises in 5 ms: a difference of
+/// 1e-6.
 #[test]
 fn the_free_field_feels_a_front_when_it_reaches_the_side() {
     let mesh = ground(Shape::Quad4, &[0., 1.5, 4., 6.], &HEIGHTS);

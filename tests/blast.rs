@@ -49,7 +49,8 @@ fn the_command_prints_the_parameters_as_text_and_json() {
     }
 }
 
-/// A tonne at 30 m: the tangent, 115.667 kPa for 9.41 ms, carries 544 kPa ms, the pulse and the line of equal impulse 927.
+/// A tonne at 30 m: the tangent, 115.667 kPa for 9.41 ms, carries 544 kPa ms, the pulse and the line of equal impulse
+/// 927.
 #[test]
 fn the_impulse_that_acts_is_that_of_the_form_chosen() {
     let bench = Bench::new("acting");
@@ -81,8 +82,8 @@ fn the_curve_is_written_as_a_figure_and_as_a_table_that_a_case_reads() {
     assert!(refusal.code == Some(1) && refusal.stderr.contains(".csv or .svg"), "{}", refusal.stderr);
 }
 
-/// The curve's points lie where it bends: their straight lines carry the impulse within 0.1 %, near a charge (b = 10) and
-/// far from it.
+/// The curve's points lie where it bends: their straight lines carry the impulse within 0.1 %, near a charge (b = 10)
+/// and far from it.
 #[test]
 fn a_written_curve_carries_the_impulse() {
     let bench = Bench::new("carried");
@@ -346,8 +347,8 @@ fn resultant(model: &Model, sweep: &MovingFront, t: f64) -> [f64; 2] {
     sweep.forces(t).fold([0., 0.], |[f, m], (node, [_, fy])| [f - fy, m - fy * model.mesh.points[node][0]])
 }
 
-/// A step p behind a front at speed U has loaded the length s = U t: force p s, moment p s^2/2, at every time. Exact for
-/// straight edges, so round-off.
+/// A step p behind a front at speed U has loaded the length s = U t: force p s, moment p s^2/2, at every time. Exact
+/// for straight edges, so round-off.
 #[test]
 fn behind_a_front_the_force_is_pressure_times_the_length_it_has_passed() {
     for second_order in [false, true] {
@@ -368,7 +369,8 @@ fn behind_a_front_the_force_is_pressure_times_the_length_it_has_passed() {
 }
 
 /// A charge over the middle of an edge: the force is that of the pressure over x by 60,000 rectangles. These miss the
-/// front by less than one of them, 5e-5 m of at least 0.3 m; three Gauss points an edge see the curved pressure to 1e-3.
+/// front by less than one of them, 5e-5 m of at least 0.3 m; three Gauss points an edge see the curved pressure to
+/// 1e-3.
 #[test]
 fn a_charge_over_an_edge_loads_both_ways_and_without_jumps() {
     let keys = json!({ "charge": "8 kg", "at": [1.4, 3], "burst": "spherical", "wave": "incident" });

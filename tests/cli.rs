@@ -610,8 +610,8 @@ fn results_go_to_stdout_and_all_else_to_stderr() {
     }
 }
 
-/// xi = alpha / (4 pi f) + beta pi f: 5 % at 5 and 15 Hz, so alpha = 2.356194 1/s, beta = 7.957747e-4 s, least 4.330 % at 8.660 Hz,
-/// and at 100 Hz 2.356194 / 1256.6 + 0.25 = 25.2 %.
+/// xi = alpha / (4 pi f) + beta pi f: 5 % at 5 and 15 Hz, so alpha = 2.356194 1/s, beta = 7.957747e-4 s, least 4.330 %
+/// at 8.660 Hz, and at 100 Hz 2.356194 / 1256.6 + 0.25 = 25.2 %.
 #[test]
 fn check_shows_the_damping_over_the_loads_spectrum_and_warns_outside_the_fitted_band() {
     let bench = Bench::new("damping");

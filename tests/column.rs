@@ -83,10 +83,10 @@ fn layered_errors(h: f64, dt: f64) -> [f64; 2] {
     [support::peak(&differences) / largest, mean_square.sqrt() / largest]
 }
 
-/// Reference: solution by characteristics for 100 kPa falling to zero in 50 ms (the file's head). The pressure jumps and
-/// so does the velocity at the front, which a mesh smears over a time that falls with h^(2/3): 0.3 ms after three returns
-/// at h = 0.05 m. Found: at most 0.94, 0.45, 0.43 % at h = 0.2, 0.1, 0.05 m, in the mean 0.155, 0.081, 0.044 %; the
-/// mean is asked to fall at least as h^(2/3).
+/// Reference: solution by characteristics for 100 kPa falling to zero in 50 ms (the file's head). The pressure jumps
+/// and so does the velocity at the front, which a mesh smears over a time that falls with h^(2/3): 0.3 ms after three
+/// returns at h = 0.05 m. Found: at most 0.94, 0.45, 0.43 % at h = 0.2, 0.1, 0.05 m, in the mean 0.155, 0.081, 0.044 %;
+/// the mean is asked to fall at least as h^(2/3).
 #[test]
 fn the_papers_layers_settle_as_the_characteristics_say() {
     let errors = [(0.2, 2e-4), (0.1, 1e-4), (0.05, 5e-5)].map(|(h, dt)| layered_errors(h, dt));

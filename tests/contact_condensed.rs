@@ -30,8 +30,8 @@ const MATERIALS: [(&str, f64, f64, f64, f64); 4] = [
     ("pipe_left", 210e9, 0.30, 7800., 0.),
 ];
 
-/// The tolerance is tight because the fixed point on Tresca's bound, which a few steps need, ends at it; Newton's method
-/// itself ends at round-off.
+/// The tolerance is tight because the fixed point on Tresca's bound, which a few steps need, ends at it; Newton's
+/// method itself ends at round-off.
 fn case(integration: &str, alpha: f64, delta: f64) -> Value {
     let material = |&(name, young, poisson, density, friction): &(&str, f64, f64, f64, f64)| {
         (name.into(), json!({ "young": young, "poisson": poisson, "density": density, "friction": friction }))

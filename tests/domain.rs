@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// Squares of 0.5 m; P is the middle of the surface. c_p = sqrt(134.615 MPa / 2000 kg/m3) = 259.44 m/s: the base at 6 m returns
-/// after 12 / 259.44 = 46.25 ms.
+/// Squares of 0.5 m; P is the middle of the surface. c_p = sqrt(134.615 MPa / 2000 kg/m3) = 259.44 m/s: the base at 6 m
+/// returns after 12 / 259.44 = 46.25 ms.
 const SCRIPT: &str = r#"
 DefineConstant[
   width = {4, Min 1, Max 100, Name "Width"}, height = {6, Min 1, Max 100, Name "Height"},
@@ -177,7 +177,8 @@ fn what_a_study_cannot_do_is_refused_with_a_sentence() {
     }
 }
 
-/// The surface's edge moves as the ground grows, and with it the front's t = 0; and a load that comes too late moves nothing.
+/// The surface's edge moves as the ground grows, and with it the front's t = 0; and a load that comes too late moves
+/// nothing.
 #[test]
 fn sizes_that_cannot_be_compared_are_refused() {
     let Some(gmsh) = gmsh() else { return };
@@ -235,9 +236,10 @@ fn default_case(sets: &[&str]) -> Returns {
     returns(&load(&request).unwrap().model).unwrap()
 }
 
-/// By hand from the paper's Table 2 (c_p = 620.140, 611.290, 631.977 m/s): 24.040 ms down to 15 m and 15.603 ms up to the invert
-/// at 5.2 m; 1.2 m less of layer 2 where the front runs down through a pipe. The sides are felt only by what the left pipe
-/// sends out: 6.473 ms to its crown at 4 m, then 2 x 10.7 m from and to its springline H at no more than 631.977 m/s.
+/// By hand from the paper's Table 2 (c_p = 620.140, 611.290, 631.977 m/s): 24.040 ms down to 15 m and 15.603 ms up to
+/// the invert at 5.2 m; 1.2 m less of layer 2 where the front runs down through a pipe. The sides are felt only by what
+/// the left pipe sends out: 6.473 ms to its crown at 4 m, then 2 x 10.7 m from and to its springline H at no more than
+/// 631.977 m/s.
 #[test]
 fn the_default_cases_base_returns_to_the_invert_after_39_64_ms_and_its_sides_to_h_after_40_34_ms() {
     let r = default_case(&[]);
@@ -253,8 +255,8 @@ fn the_default_cases_base_returns_to_the_invert_after_39_64_ms_and_its_sides_to_
     assert!(r.base.iter().chain(&r.sides).all(|r| r.not_before <= r.through_ground));
 }
 
-/// Sides that are held in both directions are felt from the load's nearest point on: between 10.7 m at the fastest P speed and
-/// the straight ray from the surface's corner, 4.6 m down and 10.7 m across at the slowest, 611.290 m/s.
+/// Sides that are held in both directions are felt from the load's nearest point on: between 10.7 m at the fastest P
+/// speed and the straight ray from the surface's corner, 4.6 m down and 10.7 m across at the slowest, 611.290 m/s.
 #[test]
 fn held_sides_are_felt_as_soon_as_a_wave_has_run_from_them() {
     let both = "supports={\"base\": [\"x\", \"y\"], \"side_left\": [\"x\", \"y\"], \"side_right\": [\"x\", \"y\"]}";
@@ -265,8 +267,8 @@ fn held_sides_are_felt_as_soon_as_a_wave_has_run_from_them() {
     assert!((earliest..f64::hypot(4.6, 10.7) / 611.290).contains(&h), "{h}");
 }
 
-/// Squares of 1 m, 10 m wide and 6 m deep, without those for which `hole` holds; c_p = 259.44 m/s as above. P is the middle of
-/// the surface; `pin` a point at (5, -4), `foot` the left tenth of the base.
+/// Squares of 1 m, 10 m wide and 6 m deep, without those for which `hole` holds; c_p = 259.44 m/s as above. P is the
+/// middle of the surface; `pin` a point at (5, -4), `foot` the left tenth of the base.
 fn with_hole(hole: bool, change: impl Fn(&mut serde_json::Value)) -> Returns {
     let mut drawing = support::Drawing::default();
     let nodes: Vec<Vec<usize>> =
@@ -294,8 +296,9 @@ fn with_hole(hole: bool, change: impl Fn(&mut serde_json::Value)) -> Returns {
     returns(&support::model(&json, &drawing.mesh())).unwrap()
 }
 
-/// Without pipes the sides are felt all the same where something inside scatters the plane wave. Lengths by hand: 2 m down to the
-/// hole's corner at (4, -2), 4 m to the side, 5 m to P; 4 + 5 + 5 by the pin; 6 + 0 + 5 by a base that is not held alike.
+/// Without pipes the sides are felt all the same where something inside scatters the plane wave. Lengths by hand: 2 m
+/// down to the hole's corner at (4, -2), 4 m to the side, 5 m to P; 4 + 5 + 5 by the pin; 6 + 0 + 5 by a base that is
+/// not held alike.
 #[test]
 fn sides_are_felt_by_way_of_whatever_scatters() {
     let c = (100e6 * 0.7 / (1.3 * 0.4) / 2000f64).sqrt();

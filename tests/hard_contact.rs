@@ -114,8 +114,8 @@ const TOWER_CASE: &str = r#"{
   "time": { "step": 1, "end": 1 }
 }"#;
 
-/// The body weighs 20 kN, so f N = 10 kN: it stands a pull of 9 kN, slides under 11 kN and comes off when lifted by 30 kN,
-/// at once or while the load grows; no advice that only fits motion.
+/// The body weighs 20 kN, so f N = 10 kN: it stands a pull of 9 kN, slides under 11 kN and comes off when lifted by 30
+/// kN, at once or while the load grows; no advice that only fits motion.
 #[test]
 fn statics_names_the_body_that_slides_or_comes_off() {
     let bench = Bench::new("statics");

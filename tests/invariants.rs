@@ -61,9 +61,9 @@ fn the_twin_pipes_have_their_first_frequencies() {
     assert!((f[2] / f[1] - 1.).abs() < 0.02 && f[3] > f[2], "{f:?}");
 }
 
-/// The consistent tangent of a piecewise linear law: one iteration a step while nothing changes, few when it does. Without
-/// the coupling of shear to pressure it takes more. It is 1.145; where nobody looks where the jumps are going 1.65, since
-/// what slips is then taken for sticking at first.
+/// The consistent tangent of a piecewise linear law: one iteration a step while nothing changes, few when it does.
+/// Without the coupling of shear to pressure it takes more. It is 1.145; where nobody looks where the jumps are going
+/// 1.65, since what slips is then taken for sticking at first.
 #[test]
 fn newton_seldom_takes_more_than_one_iteration_a_step() {
     let run = default_run();
@@ -179,8 +179,9 @@ fn a_support_may_hold_one_side_of_an_interface() {
     }
 }
 
-/// In statics almost every point slips at f = 0.05, and only few keep the pipes from turning: Newton ends at its tolerance
-/// whatever that is, and at the same displacements. 1e-9: a tolerance of 1e-8 on forces, times the share that slips.
+/// In statics almost every point slips at f = 0.05, and only few keep the pipes from turning: Newton ends at its
+/// tolerance whatever that is, and at the same displacements. 1e-9: a tolerance of 1e-8 on forces, times the share that
+/// slips.
 #[test]
 fn slipping_pipes_rest_at_any_tolerance() {
     let pipes = ["left", "right"].map(|side| format!("interfaces.interface_{side}.friction=0.05"));

@@ -64,8 +64,8 @@ fn the_average_acceleration_lengthens_the_period_as_tabulated() {
 }
 
 /// Undamped load factors of the triangular pulse by duration over period (Biggs' chart, computed to 5 digits). At 2000
-/// steps a period the method errs by (omega dt)^2 / 24, below 1e-6; what is left is the table's rounding. Half a step of
-/// the load would be 1e-3.
+/// steps a period the method errs by (omega dt)^2 / 24, below 1e-6; what is left is the table's rounding. Half a step
+/// of the load would be 1e-3.
 #[test]
 fn a_triangular_pulse_has_its_load_factors() {
     let factors = [
@@ -161,8 +161,8 @@ fn the_average_acceleration_balances_energy_in_every_step() {
     assert!(worst < 1e-12 && ledger.max_relative_error() < 1e-10, "{worst:.1e} {:.1e}", ledger.max_relative_error());
 }
 
-/// M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t = (1 + alpha) f - alpha f_t (Hilber, Hughes and Taylor 1977) in every
-/// step under a load that changes and a weight that does not.
+/// M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t = (1 + alpha) f - alpha f_t (Hilber, Hughes and Taylor 1977) in
+/// every step under a load that changes and a weight that does not.
 #[test]
 fn a_step_of_hilber_hughes_and_taylor_satisfies_their_equation() {
     let alpha = -0.2;

@@ -72,7 +72,8 @@ proptest! {
         }
     }
 
-    /// Any shape with any corners that stay convex: K t = 0 for a translation, and for a small rotation about the origin.
+    /// Any shape with any corners that stay convex: K t = 0 for a translation, and for a small rotation about the
+    /// origin.
     #[test]
     fn rigid_motion_makes_no_force(off in prop::array::uniform8(-0.2..0.2), poisson in 0_f64..0.49) {
         for shape in [Shape::Tri3, Shape::Quad4, Shape::Tri6, Shape::Quad8] {
@@ -94,8 +95,8 @@ proptest! {
     }
 
     /// Grids with pairs between them and any nodes held: there are as many unknowns as free displacements, those of the
-    /// pairs' nodes last; held nodes stay; and the jump of each pair, which is there wherever one of its nodes can move, is
-    /// the difference of its nodes' motions.
+    /// pairs' nodes last; held nodes stay; and the jump of each pair, which is there wherever one of its nodes can
+    /// move, is the difference of its nodes' motions.
     #[test]
     fn unknowns_describe_every_motion_that_supports_allow(
         held in prop::collection::vec(prop::array::uniform2(prop::bool::weighted(0.2)), 30),

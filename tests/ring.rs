@@ -49,8 +49,8 @@ impl Polar {
         [r * angle.cos(), r * angle.sin()]
     }
 
-    /// Groups: pipe, ground, interface (the pipe's outer face), bore, top, left, bottom, right; points east, north, west,
-    /// south on the border.
+    /// Groups: pipe, ground, interface (the pipe's outer face), bore, top, left, bottom, right; points east, north,
+    /// west, south on the border.
     fn mesh(&self) -> Mesh {
         let (m, n) = (2 * (self.layers + self.ground_layers), 2 * self.rays);
         let number = |i: usize, j: usize| i * n + j % n;
@@ -207,8 +207,8 @@ fn nodal_error(shape: Shape, rays: usize, layers: usize) -> [f64; 2] {
     [mean_square.sqrt(), errors.iter().copied().fold(0., f64::max)]
 }
 
-/// Element stress is of order p; the mean of what elements extrapolate to a node was measured at 1.4, 1.4, 2, 2 in the mean
-/// square, on a quarter. Recovered: p + 1 on this mesh; observed 2.25, 2.36, 2.96, 3.33, asked a quarter less.
+/// Element stress is of order p; the mean of what elements extrapolate to a node was measured at 1.4, 1.4, 2, 2 in the
+/// mean square, on a quarter. Recovered: p + 1 on this mesh; observed 2.25, 2.36, 2.96, 3.33, asked a quarter less.
 #[test]
 fn nodal_stress_converges_faster_than_the_elements_to_lames() {
     for (shape, order, finest) in
@@ -354,7 +354,8 @@ fn in_plane(name: &str, polar: Polar, pipe: &str, ground: [f64; 2], interface: &
     sections(&prepared, &state)
 }
 
-/// Springline and crown: [hoop in, hoop out, N, M, p_r, u_r] against the reference; relative to the larger of the two places.
+/// Springline and crown: [hoop in, hoop out, N, M, p_r, u_r] against the reference; relative to the larger of the two
+/// places.
 fn errors(sections: &[Section], springline: [f64; 6], crown: [f64; 6]) -> [[f64; 6]; 2] {
     let values = |s: &Section| [s.hoop[0], s.hoop[1], s.normal_force, s.moment, s.traction[0], s.displacement[0]];
     let at = |place: usize, exact: [f64; 6], other: [f64; 6]| {
@@ -425,8 +426,8 @@ fn the_papers_pipe_has_the_exact_forces() {
 }
 
 /// Pressure p in the bore of a ring bonded to ground of its own material: sigma_r = -p (a/r)^2, Q = 0 at every cut. The
-/// ground's hold on a bonded pipe is not told apart by elements; half of it to each side of a cut, whatever their lengths,
-/// would make Q = sigma_r (l_after - l_before) / 4, here 0.5 % of p a.
+/// ground's hold on a bonded pipe is not told apart by elements; half of it to each side of a cut, whatever their
+/// lengths, would make Q = sigma_r (l_after - l_before) / 4, here 0.5 % of p a.
 #[test]
 fn a_cut_between_sectors_of_unlike_length_shares_the_grounds_hold_by_them() {
     let ring = Polar { shape: Shape::Quad4, rays: 128, radii: [0.9, 1.0], layers: 2, ground_layers: 60, ..COARSE };

@@ -415,8 +415,8 @@ fn a_mesh_is_read_once_and_the_hash_of_what_was_read_is_told() {
     assert_eq!(summary(&bench.path("output/block")).unwrap()["inputs"]["mesh_sha256"], hash.as_str());
 }
 
-/// From 24 MB, too few to assemble the default case, to 64 MB, nearly enough: before the factor its size is told, else what
-/// could not be had.
+/// From 24 MB, too few to assemble the default case, to 64 MB, nearly enough: before the factor its size is told, else
+/// what could not be had.
 #[test]
 #[cfg(target_os = "linux")]
 fn without_memory_a_run_ends_with_a_sentence() {

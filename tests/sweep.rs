@@ -177,8 +177,8 @@ fn numbers_of_an_earlier_plan_are_never_in_the_table() {
     assert!(refused.stdout.contains("peak50kPa  refused") && !refused.stdout.contains("gap"), "{}", refused.stdout);
 }
 
-/// Two runs without end are asked to stop, those over another factor wait for them: "not run", though their folders hold
-/// results of the case before it was changed.
+/// Two runs without end are asked to stop, those over another factor wait for them: "not run", though their folders
+/// hold results of the case before it was changed.
 #[test]
 fn an_interrupt_leaves_a_table_of_what_is_done_and_says_how_to_go_on() {
     let bench = Bench::new("sweep-interrupt");

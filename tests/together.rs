@@ -16,7 +16,8 @@ use support::root;
 const STEPS: usize = 60;
 const DAMPED: Rayleigh = Rayleigh { alpha: 5., beta: 1e-4 };
 
-/// One pipe in layered ground, open at all sides; HHT and the joints' own damping, so that every term of a step is there.
+/// One pipe in layered ground, open at all sides; HHT and the joints' own damping, so that every term of a step is
+/// there.
 fn model(friction: f64, peak: f64) -> Model {
     let material =
         |young: f64, poisson: f64, density: f64| json!({ "young": young, "poisson": poisson, "density": density });

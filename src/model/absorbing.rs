@@ -92,8 +92,8 @@ pub fn loaded(case: &Case, model: &Model) -> Option<String> {
     ))
 }
 
-/// Where a load pushes along a viscous curve, the wave it makes runs along the dashpots: a load on a curve that ends there, or
-/// on the ground right behind an upright one.
+/// Where a load pushes along a viscous curve, the wave it makes runs along the dashpots: a load on a curve that ends
+/// there, or on the ground right behind an upright one.
 fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Load]) -> Result<()> {
     let along = line.tangent(mesh);
     for load in loads {

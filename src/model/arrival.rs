@@ -27,8 +27,8 @@ pub struct Returns {
     pub sides: Vec<Return>,
     /// the base holds u_y: it gives a plane wave back whole
     pub base_is_held: bool,
-    /// u_x = 0 or free field, under a load all over the level surface of level layers: only waves scattered inside feel the
-    /// sides
+    /// u_x = 0 or free field, under a load all over the level surface of level layers: only waves scattered inside feel
+    /// the sides
     pub sides_carry_free_field: bool,
     /// bodies of interfaces, inner borders or inner supports are there to scatter waves
     pub something_scatters: bool,
@@ -112,9 +112,9 @@ fn on(model: &Model, region: Region) -> impl Iterator<Item = usize> + '_ {
     nodes.filter(move |&n| inside(region.x, model.mesh.points[n][0]) && inside(region.y, model.mesh.points[n][1]))
 }
 
-/// Places inside at which a plane wave from the surface meets what it would not in endless ground: inner borders, as those of
-/// a cavity, and nodes held away from the box's edges, or along a base that is held or open in part. Those in `bodies` are
-/// known.
+/// Places inside at which a plane wave from the surface meets what it would not in endless ground: inner borders, as
+/// those of a cavity, and nodes held away from the box's edges, or along a base that is held or open in part. Those in
+/// `bodies` are known.
 fn obstacles(model: &Model, all: Region, bodies: &[Region]) -> Vec<Region> {
     let near = |a: f64, b: f64| (a - b).abs() < SAME_PLACE;
     let place = |node: usize| model.mesh.points[node];

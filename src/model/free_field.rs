@@ -1,5 +1,5 @@
-//! The ground beyond an upright side: its layers go on for ever, so under a load that does so too it moves as one column,
-//! which is modelled with the side's own nodes, materials, base and load.
+//! The ground beyond an upright side: its layers go on for ever, so under a load that does so too it moves as one
+//! column, which is modelled with the side's own nodes, materials, base and load.
 
 use super::absorbing::Absorber;
 use super::boundary::Border;

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 /// A part's rotation counts as held if the supports' rows have this share of their size left when its shifts are gone.
 const ROTATION: f64 = 1e-9;
 
-/// Elements that share nodes, and bodies that joints press together, move as one part; each needs a support in x, one in y,
-/// and something against turning: two held in x at different heights, or in y side by side.
+/// Elements that share nodes, and bodies that joints press together, move as one part; each needs a support in x, one
+/// in y, and something against turning: two held in x at different heights, or in y side by side.
 ///
 /// Error: a part that can shift or turn under a static load or gravity, with its surfaces, place and direction.
 pub fn refuse_loose(model: &Model) -> Result<()> {
@@ -63,7 +63,8 @@ fn parts(model: &Model) -> Vec<usize> {
     (0..leader.len()).map(|n| lead(&mut leader, n)).collect()
 }
 
-/// How these nodes can move as a rigid body, u = (a - c y, b + c x), with u = 0 where they are held; none if they cannot.
+/// How these nodes can move as a rigid body, u = (a - c y, b + c x), with u = 0 where they are held; none if they
+/// cannot.
 fn free_motion(model: &Model, nodes: &[usize]) -> Option<&'static str> {
     let held = |axis: usize| nodes.iter().filter(move |&&n| model.fixed[n][axis]).map(|&n| model.mesh.points[n]);
     let (in_x, in_y): (Vec<_>, Vec<_>) = (held(0).collect(), held(1).collect());

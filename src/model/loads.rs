@@ -12,8 +12,8 @@ use crate::{Error, Result};
 
 /// Each with what of its explosion does not fit as a warning.
 ///
-/// Errors name the group and the key: groups that do not exist, lines inside the solid, charges under the ground or out of
-/// their formula's range.
+/// Errors name the group and the key: groups that do not exist, lines inside the solid, charges under the ground or out
+/// of their formula's range.
 pub fn loads(case: &Case, mesh: &Mesh, sides: &Sides, warnings: &mut Vec<String>) -> Result<Vec<Load>> {
     let mut load = |(name, load): (&str, &case::Load)| {
         let group = |dimension| mesh.group_of(name, dimension, "load");

@@ -8,7 +8,8 @@ pub use crate::physics::shape::Shape;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
     pub shape: Shape,
-    /// indices into [`Mesh::points`], `shape.node_count()` of them; faces run anticlockwise, a line's direction means nothing
+    /// indices into [`Mesh::points`], `shape.node_count()` of them; faces run anticlockwise, a line's direction means
+    /// nothing
     pub nodes: Vec<usize>,
 }
 

@@ -1,7 +1,7 @@
 //! A front of pressure on its way over the loaded lines: which parts it has passed, and the forces on their nodes.
 //!
-//! A line is cut where the arrival turns (under a charge), so that over each part the front moves one way. The part behind
-//! the front is integrated by itself: the total force is continuous in time, however large the elements are.
+//! A line is cut where the arrival turns (under a charge), so that over each part the front moves one way. The part
+//! behind the front is integrated by itself: the total force is continuous in time, however large the elements are.
 
 use super::boundary::Border;
 use super::case::Clock;
@@ -47,8 +47,8 @@ struct Point {
     forces: Vec<[f64; 2]>,
 }
 
-/// A front that is nearer to one end of a part by no more than this share of the part's length is parallel to it: round-off
-/// of places.
+/// A front that is nearer to one end of a part by no more than this share of the part's length is parallel to it:
+/// round-off of places.
 const AT_ONCE: f64 = 1e-9;
 
 impl MovingFront {
@@ -119,7 +119,8 @@ impl MovingFront {
         self.zero
     }
 
-    /// Slowest and fastest speed of the front along the lines, part by part [m/s]; infinite where it reaches a part at once.
+    /// Slowest and fastest speed of the front along the lines, part by part [m/s]; infinite where it reaches a part at
+    /// once.
     pub fn trace_speeds(&self) -> [f64; 2] {
         let speed = |p: &Part| {
             let [a, b] = p.span.map(|r| p.place(r));

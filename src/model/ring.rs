@@ -1,5 +1,5 @@
-//! Finds out whether a body is a ring of rays: a pipe wall whose corner nodes lie on rays from one centre, each with the
-//! same radii, meshed in sectors between neighbouring rays.
+//! Finds out whether a body is a ring of rays: a pipe wall whose corner nodes lie on rays from one centre, each with
+//! the same radii, meshed in sectors between neighbouring rays.
 
 use super::mesh::{Cell, Mesh};
 use nalgebra::{DMatrix, DVector};

@@ -5,8 +5,8 @@ use crate::number::{seconds, short_to};
 use crate::physics::polyline;
 use crate::physics::pulse::Pulse;
 
-/// Share of the impulse that steps may miss without a word [-], and that the advised step misses at most. Of a pulse that
-/// falls as exp(-t/T) steps see (dt/T)^2/12 too much: 2 % are half of T, far below any other error of such a run.
+/// Share of the impulse that steps may miss without a word [-], and that the advised step misses at most. Of a pulse
+/// that falls as exp(-t/T) steps see (dt/T)^2/12 too much: 2 % are half of T, far below any other error of such a run.
 const UNSEEN: [f64; 2] = [0.02, 0.01];
 /// A pulse of more steps is resolved.
 const MANY: f64 = 1e6;

@@ -42,8 +42,8 @@ fn sides_of(cell: &Cell) -> Vec<Vec<usize>> {
     }
 }
 
-/// Elements of first and second order side by side are not joined at the mid-side nodes: what they compute is wrong without
-/// a word. `tags`: of the cells in the file, for the sentence.
+/// Elements of first and second order side by side are not joined at the mid-side nodes: what they compute is wrong
+/// without a word. `tags`: of the cells in the file, for the sentence.
 ///
 /// Errors: two cells with the same edge of which one has a mid-side node and the other has not, or has another; a
 /// mid-side node that is an end of another cell's side.

@@ -1,4 +1,5 @@
-//! Opens the interfaces: where a body meets the ground along a named curve, the body's elements get copies of the nodes.
+//! Opens the interfaces: where a body meets the ground along a named curve, the body's elements get copies of the
+//! nodes.
 //!
 //! The ground keeps its nodes. Both node rows of each joint are known exactly, mid-side nodes too, and each joint knows
 //! its own two elements, since a pipe may cross a layer boundary.
@@ -48,8 +49,8 @@ pub struct Opened {
 
 /// Opens every seam of a conforming mesh.
 ///
-/// Errors name the group and the coordinates: a curve that is not the border between its body and something else, or one
-/// that ends while body and ground go on touching.
+/// Errors name the group and the coordinates: a curve that is not the border between its body and something else, or
+/// one that ends while body and ground go on touching.
 pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
     let faces_at = solid_sides(mesh);
     let bodies = seams

@@ -1,12 +1,14 @@
 //! Times that no P wave through level layers can beat.
 //!
-//! With slowness (p, q), p^2 + q^2 = 1 / c^2, every path satisfies dT = ds / c >= p dx + q dy (Cauchy and Schwarz), so in layers
+//! With slowness (p, q), p^2 + q^2 = 1 / c^2, every path satisfies dT = ds / c >= p dx + q dy (Cauchy and Schwarz), so
+//! in layers
 //!
 //! ```text
 //! T >= p |dx| + sum of sqrt(1/c_i^2 - p^2) |dy_i|     for every p from 0 to 1 / (fastest c)
 //! ```
 //!
-//! The largest of these is taken: exact for vertical paths (p = 0, the base under a uniform load), a safe lower bound else.
+//! The largest of these is taken: exact for vertical paths (p = 0, the base under a uniform load), a safe lower bound
+//! else.
 
 /// Positions are those of the file, to its last digits [m].
 pub const SAME_PLACE: f64 = 1e-6;
@@ -113,8 +115,8 @@ mod tests {
         Region { x: [-12.5, 12.5], y: [y, y] }
     }
 
-    /// By hand: 3 / 620.140 + 4 / 611.290 + 8 / 631.977 = 24.040 ms down, 8 / 631.977 + 1.8 / 611.290 = 15.603 ms up to the
-    /// invert at 5.2 m: 39.64 ms.
+    /// By hand: 3 / 620.140 + 4 / 611.290 + 8 / 631.977 = 24.040 ms down, 8 / 631.977 + 1.8 / 611.290 = 15.603 ms up to
+    /// the invert at 5.2 m: 39.64 ms.
     #[test]
     fn the_base_returns_to_the_invert_of_the_papers_pipes_after_39_64_ms() {
         let invert = Region::point([-1.2, -5.2]);
@@ -122,7 +124,8 @@ mod tests {
         assert!((t - 39.643e-3).abs() < 1e-6, "{t}");
     }
 
-    /// In one material the bound is exact at any angle: the top of p dx + sqrt(1/c^2 - p^2) dy is sqrt(dx^2 + dy^2) / c.
+    /// In one material the bound is exact at any angle: the top of p dx + sqrt(1/c^2 - p^2) dy is sqrt(dx^2 + dy^2) /
+    /// c.
     #[test]
     fn in_one_material_the_bound_is_the_straight_ray() {
         let ground = Ground(vec![([-20., 0.], 500.)]);
@@ -132,8 +135,9 @@ mod tests {
         }
     }
 
-    /// Through a slow layer of 2 m over a fast half-space, 30 m along the surface: the head wave arrives first, at
-    /// 30 / 600 + 2 * 2 sqrt(1/300^2 - 1/600^2) = 61.55 ms; the bound must not be later, nor earlier than 30 m at the fast speed.
+    /// Through a slow layer of 2 m over a fast half-space, 30 m along the surface: the head wave arrives first, at 30 /
+    /// 600 + 2 * 2 sqrt(1/300^2 - 1/600^2) = 61.55 ms; the bound must not be later, nor earlier than 30 m at the fast
+    /// speed.
     #[test]
     fn no_path_beats_the_bound() {
         let ground = Ground(vec![([-2., 0.], 300.), ([-50., -2.], 600.)]);

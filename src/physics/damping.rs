@@ -4,7 +4,8 @@
 //! xi(f) = alpha / (4 pi f) + beta pi f
 //! ```
 //!
-//! From c = alpha m + beta k of one mode, xi = c / (2 m omega) and k = m omega^2 (Bathe, Finite Element Procedures, 9.3).
+//! From c = alpha m + beta k of one mode, xi = c / (2 m omega) and k = m omega^2 (Bathe, Finite Element Procedures,
+//! 9.3).
 
 use std::f64::consts::PI;
 
@@ -13,7 +14,8 @@ pub fn ratio(alpha: f64, beta: f64, f: f64) -> f64 {
     alpha / (4. * PI * f) + beta * PI * f
 }
 
-/// Frequency [Hz] of the least ratio, and that ratio: d xi / d f = 0 at 2 pi f = sqrt(alpha / beta), where xi = sqrt(alpha beta).
+/// Frequency [Hz] of the least ratio, and that ratio: d xi / d f = 0 at 2 pi f = sqrt(alpha / beta), where xi =
+/// sqrt(alpha beta).
 ///
 /// None where one of the two is 0: the ratio then falls or rises for ever.
 pub fn least(alpha: f64, beta: f64) -> Option<(f64, f64)> {
@@ -34,8 +36,8 @@ pub fn band(alpha: f64, beta: f64, most: f64) -> Option<[f64; 2]> {
 mod tests {
     use super::*;
 
-    /// 5 % at 5 and 15 Hz: beta = 2 xi / (omega_1 + omega_2) = 7.957747e-4 s, alpha = omega_1 omega_2 beta = 2.356194 1/s;
-    /// by hand, the least ratio is sqrt(alpha beta) = 4.330 % at sqrt(5 * 15) = 8.660 Hz.
+    /// 5 % at 5 and 15 Hz: beta = 2 xi / (omega_1 + omega_2) = 7.957747e-4 s, alpha = omega_1 omega_2 beta = 2.356194
+    /// 1/s; by hand, the least ratio is sqrt(alpha beta) = 4.330 % at sqrt(5 * 15) = 8.660 Hz.
     const ALPHA: f64 = 2.356194;
     const BETA: f64 = 7.957747e-4;
 

@@ -108,7 +108,8 @@ pub fn point(shape: Shape, nodes: &[[f64; 2]], at: [f64; 2], weight: f64) -> Poi
     }
 }
 
-/// Points (r, s) and weights. Stiffness: 1, 2x2, 3, 3x3 points for T3, Q4, T6, Q8; mass: exact for N N' on straight sides.
+/// Points (r, s) and weights. Stiffness: 1, 2x2, 3, 3x3 points for T3, Q4, T6, Q8; mass: exact for N N' on straight
+/// sides.
 fn rule(shape: Shape, integral: Integral) -> Vec<([f64; 2], f64)> {
     match (shape, integral) {
         (Shape::Tri3, Integral::Stiffness) => vec![([1. / 3., 1. / 3.], 0.5)],
@@ -196,8 +197,8 @@ mod tests {
         assert_eq!(count(b_bar_stiffness(&points, &STEEL)), 3, "B-bar");
     }
 
-    /// u = 1e-3 (x + y / 2, y + x / 2): stress 1600, 1600, 400; u'K u = integral of sigma . epsilon = 3.6 times the area that
-    /// the points sum to, curved sides and B-bar included.
+    /// u = 1e-3 (x + y / 2, y + x / 2): stress 1600, 1600, 400; u'K u = integral of sigma . epsilon = 3.6 times the
+    /// area that the points sum to, curved sides and B-bar included.
     #[test]
     fn a_linear_field_gives_its_exact_stress_and_energy() {
         for shape in SHAPES {

@@ -92,7 +92,8 @@ mod tests {
         }
     }
 
-    /// D_dev + K_b (1, 1, 0)'(1, 1, 0) is D, and sigma_zz = nu (sigma_xx + sigma_yy) is what the two leave out of plane.
+    /// D_dev + K_b (1, 1, 0)'(1, 1, 0) is D, and sigma_zz = nu (sigma_xx + sigma_yy) is what the two leave out of
+    /// plane.
     #[test]
     fn bulk_and_deviatoric_parts_make_up_plane_strain() {
         let m = Material { young: 7., poisson: 0.3, density: 1. };

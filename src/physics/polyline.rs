@@ -7,8 +7,8 @@ const BEND: f64 = 1e-3;
 /// What is smaller, over the peak, is drawn straight.
 const NOTHING: f64 = 1e-7;
 
-/// (t, p) from the beginning, with the value after the jump there, to the last time at which the history bends; from there
-/// on it stays. Straight lines between them keep the impulse within 0.1 %.
+/// (t, p) from the beginning, with the value after the jump there, to the last time at which the history bends; from
+/// there on it stays. Straight lines between them keep the impulse within 0.1 %.
 pub fn points(pulse: &Pulse) -> Vec<[f64; 2]> {
     let curved = |corners: &[f64], peak: f64| {
         let mut points = vec![[corners[0], pulse.at(corners[0])]];

@@ -16,7 +16,8 @@ pub enum Pulse {
     /// Modified Friedlander pulse: p(t) = peak (1 - t/duration) exp(-decay t/duration) for 0 <= t <= duration, then its
     /// negative phase, if it has one.
     Friedlander { peak: f64, duration: f64, decay: f64, negative: Option<Suction> },
-    /// Straight lines between the points, times strictly ascending: zero before the first, the last value held after it.
+    /// Straight lines between the points, times strictly ascending: zero before the first, the last value held after
+    /// it.
     Table { times: Vec<f64>, values: Vec<f64> },
     /// Nothing before `start`, then a straight line to the law's first value within `rise`, then the law:
     /// p(t) = law(t - start - rise).

@@ -97,8 +97,8 @@ impl Folder {
         file::replace(&self.file(SUMMARY), content.as_bytes())
     }
 
-    /// What runs have written here. The series before its frames, so that none is left that names missing ones; the status
-    /// file last, since it tells that there is something.
+    /// What runs have written here. The series before its frames, so that none is left that names missing ones; the
+    /// status file last, since it tells that there is something.
     fn entries(&self) -> Vec<String> {
         let files = std::fs::read_dir(&self.path).into_iter().flatten().flatten();
         let series = files.filter_map(|f| f.file_name().into_string().ok()).filter(|name| name.ends_with(".pvd"));
@@ -126,7 +126,8 @@ fn size(path: &Path) -> Option<u64> {
     path.metadata().ok().filter(|m| m.is_file()).map(|m| m.len())
 }
 
-/// A folder that is not empty must show that its results are ours: else a slip such as `--out /` writes among other things.
+/// A folder that is not empty must show that its results are ours: else a slip such as `--out /` writes among other
+/// things.
 pub fn refuse_foreign(path: &Path) -> Result<()> {
     let ours = |name: &str| path.join(name).exists();
     if ours(STATUS)

@@ -54,8 +54,8 @@ pub fn samples(shape: &RingShape, model: &Model) -> Vec<Sample> {
 
 /// Least squares over the two sectors on either side of a ray, then the value at the ray and `radius`.
 ///
-/// The terms 1, 1/r^2, r^2, 1/r^4 (no more than there are places in a wall) hold Lame's solution and that of an ovalised
-/// ring, Michell's cos 2 theta; each times 1, x, x^2 in the angle x.
+/// The terms 1, 1/r^2, r^2, 1/r^4 (no more than there are places in a wall) hold Lame's solution and that of an
+/// ovalised ring, Michell's cos 2 theta; each times 1, x, x^2 in the angle x.
 pub fn at(shape: &RingShape, samples: &[Sample], ray: usize, radius: f64) -> Weights {
     let rays = shape.rays.len();
     let near: Vec<&Sample> = samples.iter().filter(|s| (s.sector + rays + 2 - ray) % rays < 4).collect();

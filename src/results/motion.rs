@@ -1,4 +1,5 @@
-//! How far a motion goes beyond what small displacements mean: equilibrium is that of the shape before, pairs stay pairs.
+//! How far a motion goes beyond what small displacements mean: equilibrium is that of the shape before, pairs stay
+//! pairs.
 
 use crate::model::mesh::Mesh;
 use crate::model::resolve::Model;

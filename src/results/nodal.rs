@@ -4,7 +4,8 @@
 //! that meet there, with all terms of the degree of the shape functions: 1, x, y for T3 and Q4, and x^2, xy, y^2 for T6
 //! and Q8. The node takes its value from it; a mid-side node from the fits of its two ends; a node on a border from all
 //! fits round the corners of its elements. Where a body has no inner node, an element's own best points are fitted with
-//! a degree less. Several fits give their mean. All of it is linear: sigma(node) = sum of weight times sigma(best point).
+//! a degree less. Several fits give their mean. All of it is linear: sigma(node) = sum of weight times sigma(best
+//! point).
 
 use crate::physics::shape::Shape;
 use nalgebra::{DMatrix, DVector};

@@ -1,10 +1,10 @@
 //! Section forces N, Q, M and hoop stress round a pipe wall, in equilibrium, and what the ground does to it.
 //!
-//! Forces of an element on its nodes' side: p = k (u + beta v) + m (a + alpha v) - loads - joints. On a ray the elements
-//! anticlockwise of it and those clockwise of it hold each other: their sums of p over the ray's nodes are F and -F. Then
-//! N = -F.e_theta, Q = -F.e_r, M = sum of -F.e_theta (r - r_m): tension, sigma_r_theta, and compression of the inner
-//! fibre are positive. What is not told apart by elements (reactions, forces on points, the ground of a bonded pipe) is
-//! shared between the two sides by the lengths of their outer faces.
+//! Forces of an element on its nodes' side: p = k (u + beta v) + m (a + alpha v) - loads - joints. On a ray the
+//! elements anticlockwise of it and those clockwise of it hold each other: their sums of p over the ray's nodes are F
+//! and -F. Then N = -F.e_theta, Q = -F.e_r, M = sum of -F.e_theta (r - r_m): tension, sigma_r_theta, and compression of
+//! the inner fibre are positive. What is not told apart by elements (reactions, forces on points, the ground of a
+//! bonded pipe) is shared between the two sides by the lengths of their outer faces.
 //!
 //! The traction at a ray is the mean over the hat function of its outer node: with mid-sides the single nodes' forces
 //! over their areas alternate round the right mean (by 0.5 % in Q8, 1 % in T6 on 96 elements round).

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 /// Share of the energy of p(t), first <= t <= last, that lies below each of the rising `frequencies` [Hz].
 ///
-/// P(f) = integral of p exp(-2 pi i f t) dt; energy = integral of p^2 dt = 2 integral of |P|^2 df over f > 0 (Parseval).
+/// P(f) = integral of p exp(-2 pi i f t) dt; energy = integral of p^2 dt = 2 integral of |P|^2 df over f > 0
+/// (Parseval).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     frequencies: Vec<f64>,
@@ -77,8 +78,9 @@ impl Spectrum {
 mod tests {
     use super::*;
 
-    /// A triangle of duration tau that jumps at t = 0 has energy p^2 tau / 3 and, far up, |P| = p / (2 pi f): above f lies the
-    /// share 3 / (2 pi^2 f tau). At f tau = 10 the next term is smaller by 1 / (pi f tau)^2, far below the tolerance of 2 %.
+    /// A triangle of duration tau that jumps at t = 0 has energy p^2 tau / 3 and, far up, |P| = p / (2 pi f): above f
+    /// lies the share 3 / (2 pi^2 f tau). At f tau = 10 the next term is smaller by 1 / (pi f tau)^2, far below the
+    /// tolerance of 2 %.
     #[test]
     fn a_load_that_jumps_has_a_tail_of_one_over_f() {
         let tau = 0.05;

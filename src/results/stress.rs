@@ -81,12 +81,14 @@ impl Recovery {
         Recovery { faces, nodes, gradients, nodal: Nodal::new(&patches, &points, &places) }
     }
 
-    /// epsilon = B u and sigma = D epsilon at the centre of every face, in the order of [`Model::faces`]; `u` per node [m].
+    /// epsilon = B u and sigma = D epsilon at the centre of every face, in the order of [`Model::faces`]; `u` per node
+    /// [m].
     pub fn stresses(&self, u: &[[f64; 2]]) -> Vec<CellStress> {
         self.faces.iter().map(|face| self.stress(face, 0, u)).collect()
     }
 
-    /// sigma = (xx, yy, zz, xy) recovered at every site [Pa]; `centres`: what [`Recovery::stresses`] gave for the same `u`.
+    /// sigma = (xx, yy, zz, xy) recovered at every site [Pa]; `centres`: what [`Recovery::stresses`] gave for the same
+    /// `u`.
     pub fn nodal_stresses(&self, u: &[[f64; 2]], centres: &[CellStress]) -> Vec<[f64; 4]> {
         let mut best = Vec::with_capacity(centres.len());
         for (face, centre) in self.faces.iter().zip(centres) {

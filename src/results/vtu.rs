@@ -1,7 +1,7 @@
 //! The text of a .vtu file: vtkio writes the XML, its numbers are encoded here.
 //!
-//! An array is inline base64: [blocks, size, size of the last, compressed size], then a stream of zlib's format. Here it is
-//! a single block, and what all frames share is encoded once.
+//! An array is inline base64: [blocks, size, size of the last, compressed size], then a stream of zlib's format. Here
+//! it is a single block, and what all frames share is encoded once.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -120,7 +120,8 @@ fn filled<'a>(xml: &str, arrays: impl Iterator<Item = &'a String> + Clone) -> St
 
 /// What is written once.
 const SMALLEST: CompressionLevel = CompressionLevel::Three;
-/// What is written in every frame: the least that looks back further than a few bytes, a third of the time of zlib's own.
+/// What is written in every frame: the least that looks back further than a few bytes, a third of the time of zlib's
+/// own.
 const QUICK: CompressionLevel = CompressionLevel::One;
 
 fn encoded(level: CompressionLevel, bytes: &[u8]) -> String {

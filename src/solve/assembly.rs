@@ -25,7 +25,8 @@ pub fn stiffness_and_mass(model: &Model, unknowns: &Unknowns) -> (CsMat<f64>, Cs
     )
 }
 
-/// The faces in the order of their first unknowns: neighbours in it share rows of the matrices, which so stay in the cache.
+/// The faces in the order of their first unknowns: neighbours in it share rows of the matrices, which so stay in the
+/// cache.
 fn as_eliminated<'a>(model: &'a Model, unknowns: &Unknowns) -> Vec<(usize, &'a Material)> {
     let mut faces: Vec<(usize, &Material)> = model.faces().collect();
     faces.sort_by_cached_key(|(cell, _)| of_nodes(unknowns, &model.mesh.cells[*cell].nodes).min());

@@ -42,8 +42,8 @@ impl Block {
 }
 
 impl Condensate {
-    /// T = L_cc L_cc', L_cc the trailing block of the factor. What is `refined` gets the last digits, for twice the work: without
-    /// inertia T may be of very stiff and very soft parts.
+    /// T = L_cc L_cc', L_cc the trailing block of the factor. What is `refined` gets the last digits, for twice the
+    /// work: without inertia T may be of very stiff and very soft parts.
     pub fn new(factor: &Factor, unknowns: &Unknowns, refined: bool) -> Condensate {
         let trailing = factor.trailing(unknowns.count - unknowns.border);
         let mut inverse = Mat::zeros(trailing.nrows(), trailing.ncols());

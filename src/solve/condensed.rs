@@ -1,6 +1,6 @@
-//! A system with contact at the price of a linear one: everything but the joints is linear, so its matrix is factored once,
-//! with the nodes of the interfaces last. Solving takes one forward sweep up to them, Newton on the jumps between them, one
-//! backward sweep.
+//! A system with contact at the price of a linear one: everything but the joints is linear, so its matrix is factored
+//! once, with the nodes of the interfaces last. Solving takes one forward sweep up to them, Newton on the jumps between
+//! them, one backward sweep.
 
 use super::condensate::Condensate;
 use super::contact::{Contact, Problem, Solution};
@@ -30,8 +30,8 @@ impl Condensed {
         Condensed::with_reference(system, symbolic, a, 0., options)
     }
 
-    /// A = K of bodies that may hang on joints alone. Closed joints are put in, whose forces Newton takes off again, none
-    /// stiffer than the bodies are on average: stiffer ones would cost digits.
+    /// A = K of bodies that may hang on joints alone. Closed joints are put in, whose forces Newton takes off again,
+    /// none stiffer than the bodies are on average: stiffer ones would cost digits.
     pub fn hanging(system: &System, symbolic: &Symbolic, options: Newton) -> Result<Condensed, NotPositiveDefinite> {
         let stiffest = system.stiffness_at_joints();
         Condensed::with_reference(system, symbolic, &system.with_closed_joints(stiffest), stiffest, options)

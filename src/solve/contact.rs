@@ -1,8 +1,9 @@
-//! Newton's method on the jumps: S (j - j_0) + r(j) - D_0 j = 0, with j_0 the jumps without joint forces, S the stiffness
-//! of what the joints connect, r the joint forces, and D_0 the stiffness of the joints that S already holds, if any.
+//! Newton's method on the jumps: S (j - j_0) + r(j) - D_0 j = 0, with j_0 the jumps without joint forces, S the
+//! stiffness of what the joints connect, r the joint forces, and D_0 the stiffness of the joints that S already holds,
+//! if any.
 //!
-//! r is piecewise linear: a step whose points stay on their branches is solved at once, and only the points that changed
-//! their status cost more than that.
+//! r is piecewise linear: a step whose points stay on their branches is solved at once, and only the points that
+//! changed their status cost more than that.
 
 use super::condensate::Condensate;
 use super::interface::JointPoint;
@@ -28,7 +29,8 @@ pub struct Problem<'a> {
     pub free: &'a [f64],
     /// jumps of the last state [m]
     pub last: &'a [f64],
-    /// where they are going [m]: a point that slips stands just on the edge of slip, and only this tells that it goes on
+    /// where they are going [m]: a point that slips stands just on the edge of slip, and only this tells that it goes
+    /// on
     pub expected: &'a [f64],
 }
 
@@ -168,15 +170,15 @@ impl Contact {
         Iterate { jumps: jumps.to_vec(), missed, branches, tractions }
     }
 
-    /// What forces are measured against [N]: the joints' own or, where these are not `enough`, those that would close the
-    /// free jumps, if they are larger.
+    /// What forces are measured against [N]: the joints' own or, where these are not `enough`, those that would close
+    /// the free jumps, if they are larger.
     fn scale(&self, Problem { joints, free, .. }: &Problem, tractions: &[Vector2<f64>], enough: f64) -> f64 {
         let own = norm(&joints.interface.forces(tractions.iter().copied()));
         if own >= enough { own } else { own.max(norm(&self.condensate.forces(free))) }
     }
 
-    /// After a step of Newton's, which goes where the lines that it was solved with miss nothing: so what is missed is how
-    /// far the joints' answer lies off these lines, and that is nothing at every point that stayed on its branch.
+    /// After a step of Newton's, which goes where the lines that it was solved with miss nothing: so what is missed is
+    /// how far the joints' answer lies off these lines, and that is nothing at every point that stayed on its branch.
     fn after(&self, joints: &Joints, before: &Iterate, tangents: &[Matrix2<f64>], step: &[f64]) -> Iterate {
         let jumps: Vec<f64> = before.jumps.iter().zip(step).map(|(j, d)| j - d).collect();
         let branches = joints.branches(&jumps);
@@ -202,8 +204,8 @@ impl Contact {
         self.condensate.displacements(&self.condensate.pulled(b, &interface.forces(beyond)))
     }
 
-    /// How far the jumps are from those of the displacements that the joints' forces make, as the force that would bring
-    /// them there over the largest force; 0 where round-off leaves them no more digits.
+    /// How far the jumps are from those of the displacements that the joints' forces make, as the force that would
+    /// bring them there over the largest force; 0 where round-off leaves them no more digits.
     fn misfit(&self, problem: &Problem, Branches { at, responses }: &Branches, border: &[f64]) -> f64 {
         let made = self.condensate.jumps(border);
         let apart: Vec<f64> = made.iter().zip(at).map(|(made, jump)| made - jump).collect();
@@ -248,8 +250,8 @@ impl Contact {
         law.closed_no_stiffer_than(self.stiffest)
     }
 
-    /// Part of the closed stiffness that every tangent keeps. Without inertia a body that slips all round can turn without
-    /// resistance. Only the way to the solution changes, not the solution: what is missed knows nothing of it.
+    /// Part of the closed stiffness that every tangent keeps. Without inertia a body that slips all round can turn
+    /// without resistance. Only the way to the solution changes, not the solution: what is missed knows nothing of it.
     pub(super) fn stabilisation(&self) -> f64 {
         if self.stiffest > 0. { 1e-9 } else { 0. }
     }
@@ -292,8 +294,8 @@ mod tests {
         JointLaw { normal_stiffness, tangential_stiffness: normal_stiffness / 2., friction, gap: 0. }
     }
 
-    /// A joint of length 2 along the x axis, ground below and body above, each end between two nodes on springs; the bodies'
-    /// nodes carry `force`. Returns what its first end does.
+    /// A joint of length 2 along the x axis, ground below and body above, each end between two nodes on springs; the
+    /// bodies' nodes carry `force`. Returns what its first end does.
     fn settled(law: JointLaw, force: [f64; 2]) -> (Vector2<f64>, Response) {
         let mesh = Mesh { points: vec![[0., 0.], [2., 0.], [0., 0.], [2., 0.]], ..Mesh::default() };
         let pairs = [0, 1].map(|n| Pair { ground: n, body: 2 + n });
@@ -325,7 +327,8 @@ mod tests {
         (jump, solution.responses[0])
     }
 
-    /// Pressed on with 1 N and pushed by .1 N: springs in a row, kappa (area 1 m2) beside both others' S, j_0 = -F / k_body.
+    /// Pressed on with 1 N and pushed by .1 N: springs in a row, kappa (area 1 m2) beside both others' S, j_0 = -F /
+    /// k_body.
     #[test]
     fn a_sticking_joint_is_a_spring_between_two() {
         let (jump, response) = settled(law(5., 0.9), [0.1, -1.]);

@@ -1,12 +1,12 @@
-//! The energy ledger: work of loads and of the free field = kinetic + strain + joint-elastic + damping + boundary + friction
-//! + contact + residual.
+//! The energy ledger: work of loads and of the free field = kinetic + strain + joint-elastic + damping + boundary +
+//! friction + contact + residual.
 //!
-//! For the average acceleration the equation of motion at both ends of a step gives, exactly,
-//! (R_n + R_n+1)'du/2 = change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints'
-//! share is then told apart: what they store, what friction turns to heat, and `contact`: the rest, which comes from joints
-//! that open, close or begin to slip inside a step, and from joint damping where the case asks for it.
-//! The residual is round-off; with other Newmark parameters or HHT it is their numerical damping, and where the case
-//! starts with a = 0 it holds the first imbalance.
+//! For the average acceleration the equation of motion at both ends of a step gives, exactly, (R_n + R_n+1)'du/2 =
+//! change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints' share is then told
+//! apart: what they store, what friction turns to heat, and `contact`: the rest, which comes from joints that open,
+//! close or begin to slip inside a step, and from joint damping where the case asks for it. The residual is round-off;
+//! with other Newmark parameters or HHT it is their numerical damping, and where the case starts with a = 0 it holds
+//! the first imbalance.
 
 use super::system::{Rayleigh, State, System};
 use crate::sparse::multiply;
@@ -103,8 +103,8 @@ impl Ledger {
         }
     }
 
-    /// Says where the joints' bookkeeping is more than a small part of what moves: they chatter, and peaks are not to be
-    /// trusted.
+    /// Says where the joints' bookkeeping is more than a small part of what moves: they chatter, and peaks are not to
+    /// be trusted.
     pub fn warning(&self) -> Option<String> {
         let share = self.now.contact / self.peak;
         (self.peak > 0. && share.abs() > SUSPICIOUS).then(|| {
@@ -117,8 +117,8 @@ impl Ledger {
         })
     }
 
-    /// Says where the residual is more than round-off, for integrators that leave nothing else in it: then numbers cancel in
-    /// the equations themselves, and their solution is not to be trusted either.
+    /// Says where the residual is more than round-off, for integrators that leave nothing else in it: then numbers
+    /// cancel in the equations themselves, and their solution is not to be trusted either.
     pub fn unclosed(&self) -> Option<String> {
         let error = self.max_relative_error();
         let sound = error < UNCLOSED; // false for NaN
@@ -136,7 +136,8 @@ impl Ledger {
     }
 }
 
-/// What the joints give in one step beyond what they stored and friction ate: -(r_n + r_n+1)'dj/2 - stored - friction [J].
+/// What the joints give in one step beyond what they stored and friction ate: -(r_n + r_n+1)'dj/2 - stored - friction
+/// [J].
 pub fn joint_gain(system: &System, old: &State, new: &State) -> f64 {
     let work = mean_dot(&joint_force(system, old), &joint_force(system, new), &growth_of_jumps(system, old, new));
     stored_in_joints(system, new) - stored_in_joints(system, old) + friction(system, old, new) - work

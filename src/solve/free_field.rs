@@ -2,10 +2,10 @@
 //! lateral stress presses on the side.
 //!
 //! A column of the same layers moves up and down as under the load alone, u_x = 0. With n_x of the outward normal, the
-//! traction on the side is t_x = n_x s_xx - rho c_p v_x, t_y = -rho c_s (v_y - v_y') with v' of the column and
-//! s_xx = lambda (e + beta e'), e = du_y'/dy and e' its rate. The terms in v_x and v_y are dashpots of the model's own C;
-//! those of the column are forces known before the model's step, since the column knows nothing of the model. Each rho c v
-//! comes with its share of Rayleigh damping: see [`System::with_damping`].
+//! traction on the side is t_x = n_x s_xx - rho c_p v_x, t_y = -rho c_s (v_y - v_y') with v' of the column and s_xx =
+//! lambda (e + beta e'), e = du_y'/dy and e' its rate. The terms in v_x and v_y are dashpots of the model's own C;
+//! those of the column are forces known before the model's step, since the column knows nothing of the model. Each rho
+//! c v comes with its share of Rayleigh damping: see [`System::with_damping`].
 
 use super::assembly::{corners, dashpot_block};
 use super::system::{Rayleigh, State, System};
@@ -106,8 +106,8 @@ impl Column {
     }
 }
 
-/// (a, b, axis, value) for nodes a, b of a line: along x n_x lambda of the integral of N_a dN_b/dy ds, along y rho c_s of
-/// that of N_a N_b ds.
+/// (a, b, axis, value) for nodes a, b of a line: along x n_x lambda of the integral of N_a dN_b/dy ds, along y rho c_s
+/// of that of N_a N_b ds.
 fn couplings(
     model: &Model,
     Absorber { line, material, .. }: &Absorber,

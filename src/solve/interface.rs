@@ -20,8 +20,8 @@ fn rule(integration: Integration, nodes: usize) -> Vec<(f64, f64)> {
     }
 }
 
-/// An integration point of a joint element, or of all that have one at this place and would all answer alike: those of one
-/// law that meet in a node of a smooth curve.
+/// An integration point of a joint element, or of all that have one at this place and would all answer alike: those of
+/// one law that meet in a node of a smooth curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointPoint {
     /// its elements (number in the model, their part of the area [m^2]), at least one
@@ -148,12 +148,14 @@ fn seen(point: &JointPoint, places: &[[Option<usize>; 2]]) -> Vec<(usize, Vector
     point.share.iter().flat_map(of_pair).collect()
 }
 
-/// Where two elements of a curve meet in a node under less than this, the curve is taken as smooth there: cos 30 degrees.
+/// Where two elements of a curve meet in a node under less than this, the curve is taken as smooth there: cos 30
+/// degrees.
 const SMOOTH: f64 = 0.866;
 
 /// Points at one pair share the mean of their elements' normals, weighted by area, unless the curve has a corner there.
 ///
-/// With each element's own normal a body that slips along a polygon would open one element's point and press the other's.
+/// With each element's own normal a body that slips along a polygon would open one element's point and press the
+/// other's.
 fn with_common_normals(points: Vec<JointPoint>) -> Vec<JointPoint> {
     let mut at_pair: HashMap<usize, Vec<usize>> = HashMap::new();
     for (i, point) in points.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Solves with S + sum area N' R' D R N for the many sets of joint tangents D that a run goes through.
 //!
-//! The inverse for one set is kept, dense; where few joints differ from it, Woodbury's formula corrects the solution, and
-//! where many do, the inverse itself. So a change of status costs by what changed, not by the number of joints.
+//! The inverse for one set is kept, dense; where few joints differ from it, Woodbury's formula corrects the solution,
+//! and where many do, the inverse itself. So a change of status costs by what changed, not by the number of joints.
 
 use super::interface::Interface;
 use crate::sparse::columns::add_columns;

@@ -65,8 +65,9 @@ impl Joints<'_> {
 }
 
 impl JointDamping {
-    /// Adds beta D rate, D the stiffness that the last step's status left: all of it sticking, the normal part slipping,
-    /// none open. The status of this step would make the force jump where a joint opens, and leave no equilibrium there.
+    /// Adds beta D rate, D the stiffness that the last step's status left: all of it sticking, the normal part
+    /// slipping, none open. The status of this step would make the force jump where a joint opens, and leave no
+    /// equilibrium there.
     fn add_to(&self, elastic: Response, law: &JointLaw, last: Status, rate: Vector2<f64>) -> Response {
         let d = match last {
             Status::Open => Matrix2::zeros(),

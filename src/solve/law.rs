@@ -1,8 +1,8 @@
 //! How a state follows from the last one: Newmark's method, its variant of Hilber, Hughes and Taylor (1977), or
 //! equilibrium without inertia.
 //!
-//! M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t + r(j) = (1 + alpha) f - alpha f_t, everything without index at the
-//! new time, joint forces too; alpha = 0 is Newmark's method. K* = a0 M + (1 + alpha)(a1 C + K).
+//! M a + (1 + alpha)(C v + K u) - alpha (C v + K u)_t + r(j) = (1 + alpha) f - alpha f_t, everything without index at
+//! the new time, joint forces too; alpha = 0 is Newmark's method. K* = a0 M + (1 + alpha)(a1 C + K).
 
 use super::joints::JointDamping;
 use super::newmark::Constants;

@@ -85,7 +85,8 @@ fn refuse_gaps(below: impl Fn(f64) -> Below, lambdas: &[f64], shift: f64) -> Res
 /// Distance of sigma from the last eigenvalue, relative to it, where it is taken first.
 const NEAREST: f64 = 1e-8;
 
-/// Share of an eigenvalue that round-off may take from it: 1e-16 times the ratio of K's largest to it, for slender bodies.
+/// Share of an eigenvalue that round-off may take from it: 1e-16 times the ratio of K's largest to it, for slender
+/// bodies.
 const ROUND_OFF: f64 = 1e-5;
 
 /// Parts that nothing holds move at 0 Hz; this shift [1/s^2] far below the mesh's own frequencies keeps K definite.

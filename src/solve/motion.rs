@@ -17,8 +17,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A state's vectors. Velocities and accelerations of the jumps are those of their sides: going on by themselves they
-    /// would drift off by the round-off of every step.
+    /// A state's vectors. Velocities and accelerations of the jumps are those of their sides: going on by themselves
+    /// they would drift off by the round-off of every step.
     ///
     /// Error: a number has become too large.
     pub fn with_jumps(self, system: &System, jumps: &[f64]) -> Result<[Vec<f64>; 3], Unsettled> {
@@ -35,8 +35,8 @@ impl Motion {
     }
 }
 
-/// The motion of each case after a step from its `old` state to the displacements x, with `room` in each vector, and what
-/// the matrices are multiplied by: a row for each unknown and a last one that stands for nothing.
+/// The motion of each case after a step from its `old` state to the displacements x, with `room` in each vector, and
+/// what the matrices are multiplied by: a row for each unknown and a last one that stands for nothing.
 pub fn moved<const K: usize>(law: Law, x: &Lanes<K>, old: &[&State], room: usize) -> (Vec<Motion>, Vec<Factors<K>>) {
     let mut vectors: Vec<[Vec<f64>; 3]> = old.iter().map(|_| [0; 3].map(|_| Vec::with_capacity(room))).collect();
     let mut factors = Vec::with_capacity(x.len() + 1);
@@ -110,8 +110,8 @@ mod tests {
     use crate::model::case::Integrator;
     use crate::solve::law::Scheme;
 
-    /// Cases of unlike motions in all lanes, more unknowns than a tile, and in one case a velocity before that no energy
-    /// can be made of.
+    /// Cases of unlike motions in all lanes, more unknowns than a tile, and in one case a velocity before that no
+    /// energy can be made of.
     #[test]
     fn each_case_moves_by_itself_and_knows_what_is_too_large() {
         const COUNT: usize = 2 * TILE + 3;

@@ -55,8 +55,8 @@ pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f6
     (State { q, joints: state.joints.clone(), ..State::at_rest(system) }, reactions)
 }
 
-/// Adds displacement and velocity of the nodes [m], [m/s]; joints answer to the displaced state, columns beyond the sides
-/// take part.
+/// Adds displacement and velocity of the nodes [m], [m/s]; joints answer to the displaced state, columns beyond the
+/// sides take part.
 pub fn with_motion(system: &System, state: State, displacement: &[[f64; 2]], velocity: &[[f64; 2]]) -> State {
     let add = |x: &[f64], nodal: &[[f64; 2]]| -> Vec<f64> {
         x.iter().zip(system.unknowns.from_nodes(nodal)).map(|(x, n)| x + n).collect()

@@ -182,8 +182,8 @@ fn step_lanes<const K: usize>(
         .collect()
 }
 
-/// Row i: what unknown i has on the right-hand side of each system. One whose columns did not settle lacks their forces;
-/// nobody asks for its step.
+/// Row i: what unknown i has on the right-hand side of each system. One whose columns did not settle lacks their
+/// forces; nobody asks for its step.
 fn right_hand_sides<const K: usize>(
     law: Law,
     systems: &[&System],

@@ -188,7 +188,8 @@ impl System {
         forces.into_iter().map(|f| self.rayleigh.alpha / 2. * f).collect()
     }
 
-    /// (unknown, force [N]) of the ground beyond free-field sides in the states of its columns, but for the inertial part.
+    /// (unknown, force [N]) of the ground beyond free-field sides in the states of its columns, but for the inertial
+    /// part.
     pub fn free_field_force(&self, states: &[State]) -> Vec<(usize, f64)> {
         self.columns.iter().zip(states).flat_map(|(column, state)| column.force(state)).collect()
     }

@@ -58,9 +58,9 @@ impl Contact {
         JumpEquations { joints: &problem.joints, schur, b, stabilisation: self.stabilisation() }
     }
 
-    /// Minimises 1/2 j'S j - b'j + sum area psi(j), convex and piecewise quadratic for fixed bounds: Newton with an exact
-    /// line search, also beyond the full step: along what slips freely the tangent has nothing but its stabilisation, which
-    /// says the direction and not the length.
+    /// Minimises 1/2 j'S j - b'j + sum area psi(j), convex and piecewise quadratic for fixed bounds: Newton with an
+    /// exact line search, also beyond the full step: along what slips freely the tangent has nothing but its
+    /// stabilisation, which says the direction and not the length.
     fn minimise(&self, equations: &JumpEquations, start: &[f64], bounds: &[f64]) -> Option<Vec<f64>> {
         let mut jumps = start.to_vec();
         for _ in 0..10 * self.options.max_iterations {
@@ -123,8 +123,8 @@ fn solve_dense(lu: &PartialPivLu<f64>, force: Vec<f64>) -> Vec<f64> {
     x
 }
 
-/// Where a slope that is negative at 0 and never falls goes through zero; 1 where most of it is gone there, none where it
-/// stays.
+/// Where a slope that is negative at 0 and never falls goes through zero; 1 where most of it is gone there, none where
+/// it stays.
 fn crossing(slope: impl Fn(f64) -> f64) -> Option<f64> {
     let (mut low, mut high) = (0., 1.);
     let (start, end) = (slope(0.), slope(1.));

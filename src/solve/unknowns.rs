@@ -1,8 +1,8 @@
 //! The unknowns of the equations: the displacements that no support holds, numbered in elimination order with the nodes
 //! of the interfaces last; behind them, in the vectors of a state, the jumps.
 //!
-//! jump = u(ground) - u(body) follows from the displacements, but where stiff joints make it a small difference of large
-//! ones, its digits are lost there: so a state carries it beside them.
+//! jump = u(ground) - u(body) follows from the displacements, but where stiff joints make it a small difference of
+//! large ones, its digits are lost there: so a state carries it beside them.
 
 use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
@@ -30,8 +30,8 @@ impl Unknowns {
     /// `fixed` per node and axis; `orders`: those that are known.
     ///
     /// # Errors
-    /// Pairs that form a ring (three bodies with three interfaces in one point), whose jumps depend on each other; or more
-    /// unknowns than [`elimination_order`](crate::sparse::elimination_order) can number.
+    /// Pairs that form a ring (three bodies with three interfaces in one point), whose jumps depend on each other; or
+    /// more unknowns than [`elimination_order`](crate::sparse::elimination_order) can number.
     pub fn new(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair], orders: &Orders) -> Result<Unknowns> {
         refuse_rings(mesh, fixed, pairs)?;
         let (inner, at_interfaces) = order_nodes(mesh, fixed, pairs, orders)?;

@@ -66,8 +66,8 @@ impl Symbolic {
         Symbolic { start, columns, supernodes, panels }
     }
 
-    /// Bytes that a factor takes while it is made: L as faer computes it and its two packed copies, 8 an entry; the matrix that is
-    /// factored and one that it was made from, 16 an entry.
+    /// Bytes that a factor takes while it is made: L as faer computes it and its two packed copies, 8 an entry; the
+    /// matrix that is factored and one that it was made from, 16 an entry.
     pub fn bytes(&self) -> f64 {
         let entries = self.supernodes.len_val() + 2 * self.panels.entries(0..self.panels.count());
         (8 * entries + 2 * 16 * self.columns.len()) as f64
@@ -169,7 +169,8 @@ impl Symbolic {
     }
 
     /// Counts negative pivots in the values of L D L^T (L has a unit diagonal, D stands in its place), if they can be
-    /// trusted. The computed factor belongs to A + E with |E_ij| of the order eps sqrt(g_i g_j), g_i = sum_j l_ij^2 |d_j|.
+    /// trusted. The computed factor belongs to A + E with |E_ij| of the order eps sqrt(g_i g_j), g_i = sum_j l_ij^2
+    /// |d_j|.
     fn reliable_signs(&self, values: &[f64], a: &CsMat<f64>) -> Result<usize, UnreliablePivot> {
         let mut growth = vec![0.0; a.rows()];
         let mut negative = 0;
@@ -214,8 +215,8 @@ impl Factor {
         self.forward.len()
     }
 
-    /// L_cc, the last `m` rows and columns of L: S = L_cc L_cc^T is the Schur complement of the last `m` unknowns, which
-    /// is what is left of A when all others are eliminated. Above its diagonal it is zero.
+    /// L_cc, the last `m` rows and columns of L: S = L_cc L_cc^T is the Schur complement of the last `m` unknowns,
+    /// which is what is left of A when all others are eliminated. Above its diagonal it is zero.
     ///
     /// # Panics
     /// If there are fewer than `m` unknowns.
@@ -267,7 +268,8 @@ mod tests {
         assert_eq!(symbolic.solve_once(&indefinite, &mut once), Err(NotPositiveDefinite { unknown: 0 }));
     }
 
-    /// Of those bytes the packed copies are what the factor keeps; faer's own has the upper triangles of supernodes, too.
+    /// Of those bytes the packed copies are what the factor keeps; faer's own has the upper triangles of supernodes,
+    /// too.
     #[test]
     fn a_factor_takes_the_bytes_that_are_told_before() {
         let a = grid_matrix(40, 30, &[]);

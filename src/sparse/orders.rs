@@ -1,4 +1,5 @@
-//! Elimination orders that are known already, by the graphs that they belong to: to read one takes less time than to find it.
+//! Elimination orders that are known already, by the graphs that they belong to: to read one takes less time than to
+//! find it.
 
 use std::sync::Mutex;
 

@@ -2,8 +2,8 @@
 //!
 //! A sweep costs the reading of L and little else, so every value is read once, in ascending order of memory: the
 //! forward copy holds blocks of rows, the backward copy blocks of columns from the last to the first. Read backwards
-//! from one copy, L comes several times slower. A block of `W` rows (or columns) is interleaved, so that `W` sums
-//! run at once. Diagonal entries are stored inverted. Several right-hand sides share the reading: `K` lanes side by side.
+//! from one copy, L comes several times slower. A block of `W` rows (or columns) is interleaved, so that `W` sums run
+//! at once. Diagonal entries are stored inverted. Several right-hand sides share the reading: `K` lanes side by side.
 
 use std::ops::Range;
 

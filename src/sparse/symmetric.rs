@@ -9,8 +9,8 @@ const ROWS: usize = 4;
 /// Neighbouring columns: the entries of one vector register.
 const COLUMNS: usize = 8;
 
-/// The diagonal, and what is above it in tiles of some rows and columns: those of the first rows from left to right, and
-/// so on. Rows and columns are filled up with zeros.
+/// The diagonal, and what is above it in tiles of some rows and columns: those of the first rows from left to right,
+/// and so on. Rows and columns are filled up with zeros.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetric {
     diagonal: Vec<f64>,

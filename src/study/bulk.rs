@@ -3,8 +3,8 @@
 use crate::model::resolve::Model;
 use crate::number::short_to;
 
-/// At 30 a second such a film runs for more than five minutes. The series' index is written anew with each frame: 80 bytes
-/// for each before it, 4 GB for so many.
+/// At 30 a second such a film runs for more than five minutes. The series' index is written anew with each frame: 80
+/// bytes for each before it, 4 GB for so many.
 const MANY_FRAMES: usize = 10_000;
 /// [bytes] A hundred times what the default case writes; a million unknowns write that in 100 frames.
 const MUCH: f64 = 10e9;

@@ -1,4 +1,5 @@
-//! A file's bytes and their hash, read at once: what is parsed is what is recorded, whatever becomes of the file meanwhile.
+//! A file's bytes and their hash, read at once: what is parsed is what is recorded, whatever becomes of the file
+//! meanwhile.
 
 use sha2::{Digest, Sha256};
 use std::path::Path;

@@ -91,8 +91,8 @@ fn one_sided(model: &Model, Rayleigh { alpha, beta }: Rayleigh) -> Vec<String> {
     spectra(model).into_iter().filter_map(warning).collect()
 }
 
-/// Where absorbing boundaries are asked for more than the first term of their damping in alpha / w can give: longer than 1 / alpha
-/// after the first load.
+/// Where absorbing boundaries are asked for more than the first term of their damping in alpha / w can give: longer
+/// than 1 / alpha after the first load.
 pub fn beyond_the_boundaries(model: &Model, alpha: f64) -> Option<String> {
     let end = model.time.step * model.time.steps as f64;
     let first = model.loads.iter().map(|l| l.pulse.start()).fold(f64::INFINITY, f64::min);
@@ -107,8 +107,8 @@ pub fn beyond_the_boundaries(model: &Model, alpha: f64) -> Option<String> {
     })
 }
 
-/// Each load's group and spectrum, from its beginning to its end, or that of the time computed for one that stays; loads that
-/// never act are left out.
+/// Each load's group and spectrum, from its beginning to its end, or that of the time computed for one that stays;
+/// loads that never act are left out.
 fn spectra(model: &Model) -> Vec<(String, Spectrum)> {
     let end = model.time.step * model.time.steps as f64;
     model.loads.iter().filter_map(|load| Some((load.group.clone(), spectrum(&load.pulse, end)?))).collect()

@@ -96,8 +96,8 @@ mod tests {
         assert_eq!(history(&[&[1.], &[-2.]]).peak(), Peak { value: -2., time: 1. });
     }
 
-    /// Where crown and springline carry nearly the same moment with opposite signs, a thousandth more makes the other one the
-    /// largest round the wall: a change of a thousandth, not of twice the moment.
+    /// Where crown and springline carry nearly the same moment with opposite signs, a thousandth more makes the other
+    /// one the largest round the wall: a change of a thousandth, not of twice the moment.
     #[test]
     fn a_wall_is_compared_ray_by_ray_whichever_carries_most() {
         let round = |values: [f64; 4]| History { angles: vec![0., 90., 180., 270.], ..history(&[&values]) };

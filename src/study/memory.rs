@@ -1,4 +1,5 @@
-//! Whether memory is enough for a mesh, told as soon as its factor's size is known and before anything of it is computed.
+//! Whether memory is enough for a mesh, told as soon as its factor's size is known and before anything of it is
+//! computed.
 
 use crate::sparse::Symbolic;
 use crate::{Error, Result};
@@ -41,8 +42,8 @@ fn left_by_others(meminfo: &str) -> Option<f64> {
     Some(kilobytes(meminfo, "MemAvailable:")? + kilobytes(meminfo, "SwapFree:").unwrap_or(0.))
 }
 
-/// Of /proc/self/limits and /proc/self/status, without the addresses that are taken but hold nothing yet: the allocator takes
-/// 64 MiB of them for each thread, and does without where it cannot. None if addresses are not limited.
+/// Of /proc/self/limits and /proc/self/status, without the addresses that are taken but hold nothing yet: the allocator
+/// takes 64 MiB of them for each thread, and does without where it cannot. None if addresses are not limited.
 fn left_by_limit(limits: &str, status: &str) -> Option<f64> {
     let limit: f64 = after(limits, "Max address space")?.parse().ok()?;
     Some(limit - kilobytes(status, "VmData:")?)

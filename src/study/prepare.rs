@@ -107,7 +107,8 @@ impl Prepared {
     }
 }
 
-/// What lets waves out has no modes of its own: they are those of the model as its boundaries hold it in a static stage.
+/// What lets waves out has no modes of its own: they are those of the model as its boundaries hold it in a static
+/// stage.
 fn modes_of(
     model: &Model,
     system: &System,

@@ -29,7 +29,8 @@ impl fmt::Display for Quantity {
 impl Quantity {
     /// Those of `texts` (`A`, `A.u`, `A.uy`, `pipe_left.M`), or every probe's `motions` where there are none.
     ///
-    /// Errors: names that are neither a probe nor a body of the case, unknown letters behind the dot, nothing to compare.
+    /// Errors: names that are neither a probe nor a body of the case, unknown letters behind the dot, nothing to
+    /// compare.
     pub fn all(texts: &[String], loaded: &Loaded, motions: &[&'static str]) -> Result<Vec<Quantity>> {
         let probes: Vec<&str> = loaded.model.probes.iter().map(|p| p.name.as_str()).collect();
         let bodies: Vec<&str> = loaded.model.bodies.iter().map(String::as_str).collect();

@@ -1,4 +1,5 @@
-//! From values on three refinements to the value on infinitely many (Richardson 1911; Roache 1994 for the safety factor).
+//! From values on three refinements to the value on infinitely many (Richardson 1911; Roache 1994 for the safety
+//! factor).
 //!
 //! ```text
 //! q(h) = q + C h^p;  with h_1 = r h_2 = r^2 h_3:  p = ln((q_2 - q_1) / (q_3 - q_2)) / ln r,
@@ -88,8 +89,8 @@ mod tests {
         assert!((order - 4.).abs() < 1e-9 && (error - 1.25 * 0.2).abs() < 1e-12);
     }
 
-    /// Steps of 0.05 and 0.0001 are no order of 15: by the first of them, at order 2 and ratio 1.5, 0.05 / 2.25 = 0.0222 is
-    /// still to come in the second and 0.0222 / 1.25 after it.
+    /// Steps of 0.05 and 0.0001 are no order of 15: by the first of them, at order 2 and ratio 1.5, 0.05 / 2.25 =
+    /// 0.0222 is still to come in the second and 0.0222 / 1.25 after it.
     #[test]
     fn two_values_that_happen_to_agree_do_not_make_a_small_error() {
         let Estimate::Ordered { error, .. } = Estimate::of([1., 1.05, 1.0501], 1.5) else { panic!() };

@@ -98,7 +98,8 @@ pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool) -> Result<Model>
 
 /// `coralpipe run`: solves the case and returns the table of what came out; the files are in the results folder.
 ///
-/// Errors: bad input (nothing of an earlier run is touched), no convergence or an interrupt (all until then is on disk).
+/// Errors: bad input (nothing of an earlier run is touched), no convergence or an interrupt (all until then is on
+/// disk).
 pub fn command(request: &Request) -> Result<String> {
     let started = Instant::now();
     let screen = Screen::new(request.quiet);

@@ -62,7 +62,8 @@ impl Block {
 
 /// Reads a mesh file.
 ///
-/// Errors: the file cannot be read, is no MSH 4.1 or 2.2, is cut off or corrupt, is partitioned, or has parametric nodes.
+/// Errors: the file cannot be read, is no MSH 4.1 or 2.2, is cut off or corrupt, is partitioned, or has parametric
+/// nodes.
 pub fn read(path: &Path) -> Result<Msh> {
     let bytes = std::fs::read(path).map_err(|e| not_read(path, &e))?;
     parse(&bytes, &file_name(path))

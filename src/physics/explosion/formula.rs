@@ -61,9 +61,9 @@ impl Formula {
     /// Smallest and largest Z it holds for, none for a burst it is not made for.
     ///
     /// No pulse begins nearer than Kingery and Bulmash's duration: from it comes the decay, of the reflected pulse at
-    /// least, for every formula but Swisdak's. Brode's last branch ends at 0.1 bar, Z = 9.92. Kinney and Graham's tables
-    /// go further than 40, Kingery and Bulmash's do not. For Mills, and Newmark and Hansen, the range is where they were
-    /// compared with the others here.
+    /// least, for every formula but Swisdak's. Brode's last branch ends at 0.1 bar, Z = 9.92. Kinney and Graham's
+    /// tables go further than 40, Kingery and Bulmash's do not. For Mills, and Newmark and Hansen, the range is where
+    /// they were compared with the others here.
     pub fn range(self, burst: Burst) -> Option<[f64; 2]> {
         let nearest = kingery_bulmash::duration_from(burst);
         match (self, burst) {

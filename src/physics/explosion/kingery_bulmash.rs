@@ -24,8 +24,8 @@ pub struct Table {
     pub speed: &'static [Branch],
 }
 
-/// Where the polynomial of the duration begins, Z [m/kg^(1/3)]: its u runs over [-2, 2], and nearer to the charge it leaves
-/// all sense (0.0531 spherical: 1e-24 ms). Peak, impulse and arrival begin at the charge, 0.0674 and 0.0531.
+/// Where the polynomial of the duration begins, Z [m/kg^(1/3)]: its u runs over [-2, 2], and nearer to the charge it
+/// leaves all sense (0.0531 spherical: 1e-24 ms). Peak, impulse and arrival begin at the charge, 0.0674 and 0.0531.
 pub fn duration_from(burst: Burst) -> f64 {
     match burst {
         Burst::Hemispherical => 0.178,

@@ -1,7 +1,7 @@
 //! Explosions of TNT in air: peak, duration, impulse and arrival at a distance, by the formulas of several authors.
 //!
-//! All hang on the scaled distance Z = R / W^(1/3) [m/kg^(1/3)]; times and impulses are per W^(1/3). A formula gives what
-//! it gives; the rest is Kingery and Bulmash's for the same burst, and [`Parameters::notes`] says so.
+//! All hang on the scaled distance Z = R / W^(1/3) [m/kg^(1/3)]; times and impulses are per W^(1/3). A formula gives
+//! what it gives; the rest is Kingery and Bulmash's for the same burst, and [`Parameters::notes`] says so.
 
 pub mod air;
 mod explosive;

@@ -11,8 +11,8 @@ const GRAZING: f64 = 85.;
 const UPRIGHT: f64 = 20.;
 
 impl Explosion {
-    /// What does not fit, for a charge `height` [m] over a surface that the wave meets at `least` to `most` degrees from its
-    /// perpendicular. A charge that lies on the surface is not higher than it is wide.
+    /// What does not fit, for a charge `height` [m] over a surface that the wave meets at `least` to `most` degrees
+    /// from its perpendicular. A charge that lies on the surface is not higher than it is wide.
     pub fn misfit(&self, height: f64, [least, most]: [f64; 2]) -> Option<String> {
         let (on_it, height) = (height <= 2. * RADIUS * self.tnt.cbrt(), short_to(5, height));
         let angles = match most - least < 1. {

@@ -1,5 +1,5 @@
-//! Coefficients of Kingery and Bulmash for TNT (C. N. Kingery and G. Bulmash, *Airblast parameters from TNT spherical air
-//! burst and hemispherical surface burst*, ARBRL-TR-02555, 1984), metric form.
+//! Coefficients of Kingery and Bulmash for TNT (C. N. Kingery and G. Bulmash, *Airblast parameters from TNT spherical
+//! air burst and hemispherical surface burst*, ARBRL-TR-02555, 1984), metric form.
 //!
 //! The constant of the spherical duration's middle branch is +0.23031841078: with the minus sign of one public code the
 //! branches do not meet.

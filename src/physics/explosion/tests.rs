@@ -48,8 +48,8 @@ fn kingery_and_bulmash_give_the_reference_rows() {
     }
 }
 
-/// The same polynomials at other distances, so that every branch and coefficient counts: eight digits from an independent
-/// program. A coefficient that is wrong by 1 % changes one of these by more than 1e-7.
+/// The same polynomials at other distances, so that every branch and coefficient counts: eight digits from an
+/// independent program. A coefficient that is wrong by 1 % changes one of these by more than 1e-7.
 #[test]
 fn kingery_and_bulmash_give_eight_digits_over_their_range() {
     let hemispherical = [
@@ -73,8 +73,8 @@ fn kingery_and_bulmash_give_eight_digits_over_their_range() {
     }
 }
 
-/// Swisdak's own printed table; its three to four digits bound the agreement to 0.2 %, and t_d of Z = 1 to half its last
-/// digit, 1.72 +- 0.005.
+/// Swisdak's own printed table; its three to four digits bound the agreement to 0.2 %, and t_d of Z = 1 to half its
+/// last digit, 1.72 +- 0.005.
 #[test]
 fn swisdak_gives_its_own_table_and_meets_kingery_and_bulmash() {
     let rows = [
@@ -172,8 +172,8 @@ fn every_formula_ends_at_its_range_and_names_it() {
     }
 }
 
-/// The rows of independent values at Z = 2, through the formula's own name and burst: peak, and duration where it has one
-/// (Sadovsky's 1.35 and 1.7 sqrt Z ms).
+/// The rows of independent values at Z = 2, through the formula's own name and burst: peak, and duration where it has
+/// one (Sadovsky's 1.35 and 1.7 sqrt Z ms).
 #[test]
 fn every_formula_gives_its_own_peak_and_duration() {
     use Burst::{Hemispherical, Spherical};
@@ -223,8 +223,8 @@ fn what_a_formula_lacks_is_an_ideal_gass_or_kingery_and_bulmashs() {
     }
 }
 
-/// Swisdak's row of Z = 3, 115.7 and 330.7 kPa, 92.7 and 224.3 kPa ms: the pulse begins with the peak of the wave asked for and
-/// carries its impulse, in each form but the tangent. 0.2 % are the row's four digits.
+/// Swisdak's row of Z = 3, 115.7 and 330.7 kPa, 92.7 and 224.3 kPa ms: the pulse begins with the peak of the wave asked
+/// for and carries its impulse, in each form but the tangent. 0.2 % are the row's four digits.
 #[test]
 fn the_pulse_is_that_of_the_wave_that_acts() {
     for (wave, peak, impulse) in [(Wave::Incident, 115.7e3, 92.7), (Wave::Reflected, 330.7e3, 224.3)] {

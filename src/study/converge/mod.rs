@@ -1,7 +1,7 @@
 //! `coralpipe converge`: what mesh and time step leave of each peak's digits, by Richardson's extrapolation.
 //!
-//! The case is computed on three meshes, each finer than the one before by the same ratio, and with three time steps; the two
-//! errors add up.
+//! The case is computed on three meshes, each finer than the one before by the same ratio, and with three time steps;
+//! the two errors add up.
 
 mod report;
 
@@ -57,8 +57,8 @@ struct Finding {
 /// Share of the value from which on an error says that there is no value.
 const USELESS: f64 = 0.2;
 
-/// Writes `converge.csv`, `converge.json`, `converge.svg` and a folder for each run into `output/NAME/converge/`; returns
-/// the table.
+/// Writes `converge.csv`, `converge.json`, `converge.svg` and a folder for each run into `output/NAME/converge/`;
+/// returns the table.
 ///
 /// Errors: bad input; an interrupt, with the finished runs kept.
 pub fn command(request: &Request, options: &Options) -> Result<String> {
@@ -106,7 +106,8 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
     ))
 }
 
-/// Errors where the constant does not make the elements smaller by about the ratio: three alike meshes agree in everything.
+/// Errors where the constant does not make the elements smaller by about the ratio: three alike meshes agree in
+/// everything.
 fn refuse_equal_meshes(request: &Request, case: &Case, options: &Options, levels: [f64; 3]) -> Result<()> {
     let size = |level: f64| {
         let mut geo = request.geo.clone();
@@ -187,8 +188,8 @@ fn findings(quantities: Vec<Quantity>, ladders: &[Ladder; 2], model: &Model) -> 
 }
 
 impl Finding {
-    /// The value of infinitely small elements and steps, and the error of the case's own value: what it is away from that,
-    /// and what that may be wrong by. None where a ladder diverges.
+    /// The value of infinitely small elements and steps, and the error of the case's own value: what it is away from
+    /// that, and what that may be wrong by. None where a ladder diverges.
     fn limit(&self) -> Option<(f64, f64)> {
         let [mesh, step] = self.estimates.map(|e| e.limit());
         let (mesh, step) = (mesh?, step?);

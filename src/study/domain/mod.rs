@@ -1,6 +1,7 @@
 //! `coralpipe domain`: how large the ground must be. The paper's iteration on B0 and H0: grow, compute again, compare.
 //!
-//! First the width grows until what was asked for changes by less than the tolerance, then the height, then both at once.
+//! First the width grows until what was asked for changes by less than the tolerance, then the height, then both at
+//! once.
 
 mod alike;
 mod bound;
@@ -74,7 +75,8 @@ struct Study<'a> {
     sets: Vec<String>,
 }
 
-/// Writes `domain.csv`, `domain.json`, `domain.svg` and a folder for each size into `output/NAME/domain/`; returns the table.
+/// Writes `domain.csv`, `domain.json`, `domain.svg` and a folder for each size into `output/NAME/domain/`; returns the
+/// table.
 ///
 /// Errors: bad input; an interrupt or a size without convergence, with the sizes before it on disk; no size within the
 /// tolerance (exit code 3), with the table on stdout all the same.
@@ -217,7 +219,8 @@ impl<'a> Study<'a> {
         Ok(Row { size, from, histories, changes, first_return, returns, origins, member })
     }
 
-    /// alpha and beta of the first size for all: the modes of a larger one are lower, and would change the material too.
+    /// alpha and beta of the first size for all: the modes of a larger one are lower, and would change the material
+    /// too.
     fn keep_damping(&mut self, first: &Member) -> Result<()> {
         let case = Case::read(&self.series.request.case, &self.series.request.sets)?;
         if let Some(damping) = case.damping.filter(|_| !self.options.own_damping) {

@@ -1,4 +1,5 @@
-//! Up to [`MOST_TOGETHER`](crate::solve::step::MOST_TOGETHER) runs over one factor, marched together from beginning to end.
+//! Up to [`MOST_TOGETHER`](crate::solve::step::MOST_TOGETHER) runs over one factor, marched together from beginning to
+//! end.
 
 use super::group::{Ended, Tell};
 use super::job::Job;
@@ -32,7 +33,8 @@ struct Running<'a, 'b> {
     began: Instant,
 }
 
-/// Each into its folder, with the matrices of `lead`, the factor of `march` and, where frames are asked for, their `grid`.
+/// Each into its folder, with the matrices of `lead`, the factor of `march` and, where frames are asked for, their
+/// `grid`.
 ///
 /// # Errors
 /// Results cannot be written. What keeps single runs from their end is told.

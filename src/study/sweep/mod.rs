@@ -34,8 +34,8 @@ pub struct SweepRequest {
 /// `coralpipe sweep`: runs what is not done yet, each into a folder of its own, and returns the table, which is also
 /// written to `sweep.csv`. A run that cannot start or has no end leaves the others alone.
 ///
-/// Errors: a bad plan, a foreign folder, no run that could start (nothing is written then); some runs without an end (the
-/// others are done), an interrupt, a full disk.
+/// Errors: a bad plan, a foreign folder, no run that could start (nothing is written then); some runs without an end
+/// (the others are done), an interrupt, a full disk.
 pub fn command(request: &SweepRequest) -> Result<String> {
     let screen = Screen::new(request.quiet);
     let plan = Plan::read(&request.plan)?;

@@ -85,7 +85,8 @@ impl<'a> Report<'a> {
 
     /// The last table: what goes to stdout. `stopped`: what kept the sweep from going on.
     ///
-    /// Errors: it was stopped or interrupted, some runs failed, the table cannot be written; stdout has the table then, too.
+    /// Errors: it was stopped or interrupted, some runs failed, the table cannot be written; stdout has the table then,
+    /// too.
     pub fn close(mut self, stopped: Result<()>) -> Result<String> {
         let saved = self.save();
         let (count, done) = (self.rows.len(), self.rows.iter().filter(|row| row.is_done()).count());

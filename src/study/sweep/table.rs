@@ -26,7 +26,8 @@ impl Row {
         self.status == "done"
     }
 
-    /// Takes the status of a run's summary and, if it is done, its frequencies, contact, count of warnings and peaks (SI).
+    /// Takes the status of a run's summary and, if it is done, its frequencies, contact, count of warnings and peaks
+    /// (SI).
     pub fn take(&mut self, summary: &Value) {
         self.status = plain(&summary["status"]);
         if !self.is_done() {
