@@ -32,6 +32,8 @@ test: setup $(program)
 	$(python) scripts/check_mesh.py meshes/twin_pipes.msh --case geo/twin_pipes.json
 	$(program) run --quiet --out output/test
 	$(python) scripts/check_output.py output/test
+	$(program) run --quiet --set gravity=9.81 --set time.end='"10 ms"' --out output/test_gravity
+	$(python) scripts/check_output.py output/test_gravity
 	$(python) scripts/random_geometries.py 50 2026 --binary $(program)
 	PYTHONPATH=scripts $(python) -m book --quick
 

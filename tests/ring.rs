@@ -303,7 +303,8 @@ fn opposite_cuts_balance_the_joint_tractions_between_them() {
     // one point an element has each element's own normal and traction: only its own force goes to its side of a cut
     for (shape, integration) in lobatto.into_iter().chain([(Shape::Quad4, "gauss_1")]) {
         let name = format!("balance_{shape:?}_{integration}");
-        let prepared = prepared(&name, &buried("static", integration), &Polar { shape, ..COARSE }.mesh(), false);
+        let prepared =
+            prepared(&name, &buried("static", integration), &Polar { shape, uneven: 0.2, ..COARSE }.mesh(), false);
         let state = statics(&prepared);
         assert!(state.joints.iter().any(|j| j.status.is_slipping()));
         let imbalance = imbalance(&prepared, &state);

@@ -120,9 +120,9 @@ impl Grid {
         }
     }
 
-    /// The .vtu file of a frame, displacements counted from the unknowns `origin`. Displacement, stress and the
-    /// interfaces' numbers are in double precision; what has an error far above round-off or can be had from them is in
-    /// single precision: half the bytes and time.
+    /// The .vtu file of a frame, displacements counted from the unknowns `origin`. Displacement, stress and the interfaces'
+    /// numbers are in double precision; what has an error far above round-off or can be had from them is in single
+    /// precision: half the bytes and time.
     pub fn vtu(&self, frame: &Frame, origin: &[f64]) -> Result<String> {
         // what stresses come from: the part of gravity is in it
         let total_displacement = self.unknowns.at_nodes(&frame.q);
@@ -194,5 +194,30 @@ fn cell_type(shape: Shape) -> CellType {
         Shape::Quad4 => CellType::Quad,
         Shape::Tri6 => CellType::QuadraticTriangle,
         Shape::Quad8 => CellType::QuadraticQuad,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solve::interface::JointState;
+    use crate::solve::interface::testing::{LAW, along};
+    use nalgebra::Vector2;
+
+    /// Two joints of lengths 1 and 3 that share the middle one of three points: each one's mean is of its own two ends.
+    #[test]
+    fn a_joint_shows_the_mean_of_its_own_points() {
+        let interface = along(&[[0., 0.], [1., 0.], [4., 0.]], &[LAW, LAW]);
+        let joint = |slip: f64, status: Status| JointState { slip, status, traction: Vector2::new(slip, -2. * slip) };
+        let joints = vec![joint(1., Status::Stick), joint(3., Status::SlipForward), joint(7., Status::Open)];
+        let state = State { time: 0., q: vec![], v: vec![], a: vec![], joints, free_field: vec![] };
+        // normals point down: y opens a joint by less of it
+        let jumps = [0., -0.1, 0., -0.3, 0., -0.7];
+        let cells = joint_cells(&interface, 2, &jumps, &state);
+        for (cell, [slip, gap, status]) in cells.iter().zip([[2., 0.2, 2.], [5., 0.5, 3.]]) {
+            let found = [cell.slip, cell.shear_traction, cell.normal_traction, cell.gap, f64::from(cell.status)];
+            let should = [slip, slip, -2. * slip, gap, status];
+            assert!(found.iter().zip(should).all(|(a, b)| (a - b).abs() < 1e-14), "{found:?}, should be {should:?}");
+        }
     }
 }

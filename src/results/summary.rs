@@ -188,3 +188,37 @@ impl ContactRecord {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::joint::Status;
+    use crate::solve::interface::JointState;
+    use crate::solve::interface::testing::{LAW, along};
+
+    /// Four points of two elements, the middle two of them one: it opens and then slips, and counts for two.
+    #[test]
+    fn points_are_counted_by_element() {
+        let interface = along(&[[0., 0.], [1., 0.], [4., 0.]], &[LAW, LAW]);
+        let state = |statuses: [Status; 3]| State {
+            time: 0.,
+            q: vec![],
+            v: vec![],
+            a: vec![],
+            joints: statuses.map(|status| JointState { slip: -1e-3, status, ..JointState::default() }).to_vec(),
+            free_field: vec![],
+        };
+        let stuck = state([Status::Stick; 3]);
+        let opened = state([Status::Stick, Status::Open, Status::Stick]);
+        let slipping = state([Status::Open, Status::SlipBackward, Status::Stick]);
+        // normals point down; the first point's gap is an atom's tenth
+        let jumps = [0., -1e-11, 0., -2e-3, 0., 0.];
+        let mut record = ContactRecord::default();
+        for (old, new, points) in [(&stuck, &opened, (2, 0)), (&opened, &slipping, (0, 2))] {
+            assert_eq!(open_and_slipping(&interface, new, &jumps), points);
+            record = record.after(&interface, old, new, &jumps, points);
+        }
+        assert_eq!((record.status_changes, record.max_open_points, record.max_slipping_points), (2 + 3, 2, 2));
+        assert_eq!((record.max_open, record.max_slip), (2e-3, 1e-3));
+    }
+}

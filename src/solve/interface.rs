@@ -217,3 +217,56 @@ fn joint_point(number: usize, joint: &Joint, law: JointLaw, at: &[[f64; 2]], r: 
         seen: vec![],
     }
 }
+
+#[cfg(test)]
+pub mod testing {
+    use super::*;
+    use crate::model::mesh::Shape;
+
+    /// Joints with these laws along a line of nodes, each of them a pair, the body above it.
+    pub fn along(nodes: &[[f64; 2]], laws: &[JointLaw]) -> Interface {
+        let count = nodes.len();
+        let mesh = Mesh { points: [nodes, nodes].concat(), ..Mesh::default() };
+        let pairs: Vec<Pair> = (0..count).map(|p| Pair { ground: p, body: count + p }).collect();
+        let joint =
+            |p: usize| Joint { seam: 0, shape: Shape::Line2, pairs: vec![p, p + 1], ground_cell: 0, body_cell: 0 };
+        let joints: Vec<Joint> = (0..laws.len()).map(joint).collect();
+        let laws: Vec<(JointLaw, Integration)> = laws.iter().map(|law| (*law, Integration::Lobatto)).collect();
+        let places: Vec<_> = (0..count).map(|p| [Some(2 * p), Some(2 * p + 1)]).collect();
+        Interface::new(&mesh, &pairs, &joints, &laws, &places)
+    }
+
+    pub const LAW: JointLaw = JointLaw {
+        normal_stiffness: 50.,
+        tangential_stiffness: 20.,
+        friction: crate::physics::joint::Friction::Coulomb(0.3),
+        gap: 0.,
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::testing::{LAW, along};
+    use super::*;
+    use crate::physics::joint::Friction;
+
+    #[test]
+    fn elements_of_one_law_on_a_smooth_line_share_their_points() {
+        let interface = along(&[[0., 0.], [1., 0.], [4., 0.]], &[LAW, LAW]);
+        let parts: Vec<_> = interface.points.iter().map(|p| (p.area, p.parts.clone())).collect();
+        let of_two = (2., vec![(0, 0.5), (1, 1.5)]);
+        assert_eq!(parts, [(0.5, vec![(0, 0.5)]), of_two, (1.5, vec![(1, 1.5)])]);
+        assert_eq!(interface.element_points(), 4);
+    }
+
+    #[test]
+    fn elements_of_other_laws_or_round_a_corner_keep_their_own_points() {
+        let slippery = JointLaw { friction: Friction::Coulomb(0.1), ..LAW };
+        let straight = along(&[[0., 0.], [1., 0.], [4., 0.]], &[LAW, slippery]);
+        assert_eq!(straight.points.iter().map(|p| p.law.friction).filter(|f| *f == LAW.friction).count(), 2);
+        let corner = along(&[[0., 0.], [1., 0.], [1., 3.]], &[LAW, LAW]);
+        let normals: Vec<[f64; 2]> = corner.points.iter().map(|p| p.normal).collect();
+        assert_eq!(normals, [[0., -1.], [0., -1.], [1., 0.], [1., 0.]]);
+        assert!([straight, corner].iter().all(|i| i.points.iter().all(|p| p.parts.len() == 1)));
+    }
+}

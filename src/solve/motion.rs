@@ -110,25 +110,32 @@ mod tests {
     use crate::model::case::Integrator;
     use crate::solve::law::Scheme;
 
-    /// Cases of unlike motions in all lanes, more unknowns than a tile, and in one case a velocity before that no
-    /// energy can be made of.
+    /// More unknowns than a tile.
+    const COUNT: usize = 2 * TILE + 3;
+
+    fn motion(k: usize, i: usize) -> [f64; 3] {
+        [1., 2., 3.].map(|factor| factor * (i + 7 * k) as f64)
+    }
+
+    fn cases() -> [State; 3] {
+        std::array::from_fn(|k| {
+            let [q, v, a] = [0, 1, 2].map(|m| (0..COUNT).map(|i| motion(k, i)[m]).collect());
+            State { time: 0., q, v, a, joints: vec![], free_field: vec![] }
+        })
+    }
+
+    fn displacements() -> Vec<[f64; 4]> {
+        (0..COUNT).map(|i| std::array::from_fn(|k| (i * k) as f64)).collect()
+    }
+
     #[test]
-    fn each_case_moves_by_itself_and_knows_what_is_too_large() {
-        const COUNT: usize = 2 * TILE + 3;
+    fn each_case_moves_by_itself() {
         let law = Law::new(Scheme::Dynamic(Integrator::default()), 0.1);
-        let motion = |k: usize, i: usize| [1., 2., 3.].map(|factor| factor * (i + 7 * k) as f64);
-        let mut old: Vec<State> = (0..3)
-            .map(|k| {
-                let [q, v, a] = [0, 1, 2].map(|m| (0..COUNT).map(|i| motion(k, i)[m]).collect());
-                State { time: 0., q, v, a, joints: vec![], free_field: vec![] }
-            })
-            .collect();
-        old[1].v[COUNT - 2] = 1e141;
-        let x: Vec<[f64; 4]> = (0..COUNT).map(|i| std::array::from_fn(|k| (i * k) as f64)).collect();
-        let (motions, factors) = moved(law, &x, &old.iter().collect::<Vec<_>>(), COUNT);
+        let (old, x) = (cases(), displacements());
+        let (motions, factors) = moved(law, &x, &old.each_ref(), COUNT);
         assert_eq!((factors.len(), factors[COUNT]), (COUNT + 1, Factors::ZERO));
-        assert_eq!(motions.iter().map(|m| m.finite).collect::<Vec<_>>(), [true, false, true]);
-        for k in [0, 2] {
+        for k in 0..3 {
+            assert!(motions[k].finite);
             for i in 0..COUNT {
                 let before = motion(k, i);
                 let now = law.follow(x[i][k], before);
@@ -137,5 +144,29 @@ mod tests {
                 assert_eq!(factors[i].sum.map(|f| f[k]), law.onward(now));
             }
         }
+    }
+
+    /// In u, v or a alone, in one case alone. a = 4 (u - u_0) / dt^2 - 4 v_0 / dt - a_0 and v = v_0 + dt (a_0 + a) / 2.
+    #[test]
+    fn a_case_with_a_number_that_is_too_large_is_told_from_the_others() {
+        let dynamic = |dt: f64| Law::new(Scheme::Dynamic(Integrator::default()), dt);
+        let spoilt_u = |law: Law, u: f64| {
+            let mut x = displacements();
+            x[COUNT - 2][1] = u;
+            finite(law, &x, &cases())
+        };
+        for u in [f64::NAN, f64::INFINITY, -1e141] {
+            assert_eq!(spoilt_u(Law::new(Scheme::Static, 0.1), u), [true, false, true], "u = {u}");
+        }
+        // a = 4e140, v = 2e137
+        assert_eq!(spoilt_u(dynamic(1e-3), 1e134), [true, false, true], "a");
+        // v = -1e141, a = -4e138
+        let mut old = cases();
+        old[1].v[COUNT - 2] = 1e141;
+        assert_eq!(finite(dynamic(1e3), &displacements(), &old), [true, false, true], "v");
+    }
+
+    fn finite(law: Law, x: &[[f64; 4]], old: &[State; 3]) -> Vec<bool> {
+        moved(law, x, &old.each_ref(), COUNT).0.iter().map(|motion| motion.finite).collect()
     }
 }

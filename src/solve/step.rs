@@ -116,8 +116,8 @@ impl Stepper {
     }
 }
 
-/// A step of several systems that share one factor: L, M, C and K (but for the elastic forces of Hilber, Hughes and
-/// Taylor) are read once for all of them, and each gets the digits that it gets alone.
+/// A step of several systems that share one factor: L, K (but for the elastic forces of Hilber, Hughes and Taylor) and
+/// the masses are read once for all of them, and each gets the digits that it gets alone.
 ///
 /// # Panics
 /// If there are not as many steppers, systems and old states, from one to [`MOST_TOGETHER`], or the steppers differ in

@@ -9,10 +9,10 @@ use crate::model::moving_front::MovingFront;
 use crate::model::resolve::Model;
 use crate::physics::pulse::Pulse;
 use crate::sparse::vector::{add, add_at};
-use crate::sparse::{Interleaved, Orders, Symbolic, multiply};
+use crate::sparse::{Interleaved, Orders, Symbolic, multiply, without_zeros};
 use nalgebra::Matrix2;
 use serde::Serialize;
-use sprs::{CsMat, TriMat};
+use sprs::CsMat;
 use std::sync::{Arc, OnceLock};
 
 /// K, M and C hold the bodies and what lets waves out of them; they share one pattern, so that sums of them are sums of
@@ -29,7 +29,7 @@ pub struct System {
     pub dashpots: Option<Arc<CsMat<f64>>>,
     /// zero until [`System::with_damping`]
     pub rayleigh: Rayleigh,
-    /// K, M and C as every step reads them; made when first read, when damping is known
+    /// K, M and what C has beside them, as every step reads them; made when first read, when damping is known
     interleaved: Arc<OnceLock<Interleaved>>,
     /// beta of the joints' own damping, where the case asks for it [s]
     pub joint_beta: Option<f64>,
@@ -159,7 +159,7 @@ impl System {
         [self.gravity.as_deref(), self.reactions.as_ref()].into_iter().flatten().map(Vec::as_slice)
     }
 
-    /// K, M and C as every step reads them.
+    /// K, M and what C has beside them, as every step reads them.
     pub fn interleaved(&self) -> &Interleaved {
         let Rayleigh { alpha, beta } = self.rayleigh;
         // C = alpha M_b + beta K_b + D of the bodies' M_b = M - beta D / 2 and K_b = K - alpha D / 2
@@ -293,12 +293,6 @@ pub fn combine(terms: &[(f64, &CsMat<f64>)]) -> CsMat<f64> {
         sum.data_mut().iter_mut().zip(matrix.data()).for_each(|(s, m)| *s += factor * m);
     }
     sum
-}
-
-fn without_zeros(matrix: &CsMat<f64>) -> CsMat<f64> {
-    let mut sparse = TriMat::new(matrix.shape());
-    matrix.iter().filter(|(value, _)| **value != 0.).for_each(|(&value, (i, j))| sparse.add_triplet(i, j, value));
-    sparse.to_csr()
 }
 
 fn scaled(matrix: &CsMat<f64>, factor: f64) -> CsMat<f64> {

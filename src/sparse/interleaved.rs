@@ -1,5 +1,5 @@
 //! Symmetric matrices on one pattern, interleaved so that one reading of their upper triangles serves all that is to be
-//! known of them: stiffness A, mass B, and damping C = a B + b A + E.
+//! known of them: stiffness A, mass B, and damping C = alpha B + beta A + E.
 
 use super::widest::{Kernel, on_widest};
 use sprs::CsMat;
@@ -11,8 +11,8 @@ use sprs::CsMat;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interleaved {
     unknowns: usize,
-    /// a, b
-    share: [f64; 2],
+    alpha: f64,
+    beta: f64,
     /// first unknown of each block row
     rows: Vec<u32>,
     /// where the blocks of each row begin; the first is the diagonal one
@@ -24,6 +24,7 @@ pub struct Interleaved {
     rest: Vec<Rest>,
 }
 
+/// On the diagonal half of itself: it is read as right of itself, and as below itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Block {
     /// (a_00, a_10, a_01, a_11)
@@ -32,7 +33,7 @@ struct Block {
     b: f64,
 }
 
-/// Of an entry of the upper triangle that is not zero.
+/// An entry of the upper triangle: B without its blocks, and E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Rest {
     row: u32,
@@ -64,11 +65,11 @@ pub struct Found<const K: usize> {
 }
 
 impl Interleaved {
-    /// Of A, B and E, whose patterns are symmetric, E's within that of the others, and a and b.
+    /// All matrices are symmetric.
     ///
     /// # Panics
     /// If A and B differ in their patterns, a row has no diagonal entry, or there are more unknowns than 32 bits count.
-    pub fn new([a, b]: [&CsMat<f64>; 2], share: [f64; 2], e: Option<&CsMat<f64>>) -> Interleaved {
+    pub fn new([a, b]: [&CsMat<f64>; 2], [alpha, beta]: [f64; 2], e: Option<&CsMat<f64>>) -> Interleaved {
         assert_eq!((a.indptr(), a.indices()), (b.indptr(), b.indices()), "one pattern for both");
         let first = first_of_blocks(a);
         let has_partner = |i: usize| first.get(i + 1) == Some(&i);
@@ -83,22 +84,13 @@ impl Interleaved {
                 let right = |place: usize| has_partner(j).then(|| place + 1);
                 let places = [Some(place), below, right(place), below.and_then(right)];
                 let [a, b] = [a, b].map(|matrix| places.map(|place| place.map_or(0., |p| matrix.data()[p])));
-                // Only two partners both have an equal share of it.
+                // Only two partners both have an equal part of it.
                 let in_block = if has_partner(i) && has_partner(j) { b[0] } else { 0. };
-                let left = [b[0] - in_block, b[1], b[2], b[3] - in_block];
-                let at = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
-                let upper = at.into_iter().zip(left).filter(|((row, column), b)| row <= column && *b != 0.);
-                rest.extend(upper.map(|((row, column), b)| Rest {
-                    row: narrow(row),
-                    column: narrow(column),
-                    b,
-                    e: 0.,
-                }));
+                rest.extend(rest_of(i, j, [b[0] - in_block, b[1], b[2], b[3] - in_block]));
                 if i == j || (a, in_block) != ([0.; 4], 0.) {
-                    // on the diagonal half of it: it is read as right of itself, and as below itself
-                    let share = if i == j { 0.5 } else { 1. };
+                    let part = if i == j { 0.5 } else { 1. };
                     columns.push(narrow(j));
-                    blocks.push(Block { a: a.map(|a| share * a), b: share * in_block });
+                    blocks.push(Block { a: a.map(|a| part * a), b: part * in_block });
                 }
             }
             assert_eq!(columns.get(before), Some(&narrow(i)), "every row has its diagonal entry");
@@ -107,7 +99,7 @@ impl Interleaved {
         }
         let upper = e.into_iter().flatten().filter(|(_, (row, column))| row <= column);
         rest.extend(upper.map(|(&e, (row, column))| Rest { row: narrow(row), column: narrow(column), b: 0., e }));
-        Interleaved { unknowns: a.rows(), share, rows, start, columns, blocks, rest }
+        Interleaved { unknowns: a.rows(), alpha, beta, rows, start, columns, blocks, rest }
     }
 
     /// u'A u, v'B v and w'C w of one case, from each unknown's (u, v, w).
@@ -135,6 +127,13 @@ impl Interleaved {
     }
 }
 
+/// What a block at (i, j) leaves of B = (b_00, b_10, b_01, b_11), zeros left out.
+fn rest_of(i: usize, j: usize, b: [f64; 4]) -> impl Iterator<Item = Rest> {
+    let places = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
+    let upper = places.into_iter().zip(b).filter(|((row, column), b)| row <= column && *b != 0.);
+    upper.map(|((row, column), b)| Rest { row: narrow(row), column: narrow(column), b, e: 0. })
+}
+
 fn narrow(unknown: usize) -> u32 {
     u32::try_from(unknown).expect("fewer unknowns than 2^32")
 }
@@ -160,7 +159,8 @@ impl<const K: usize> Kernel for Reading<'_, K> {
 
     #[inline(always)]
     fn run(self) -> Found<K> {
-        let Reading { matrices: Interleaved { unknowns, share, rows, start, columns, blocks, rest }, factors } = self;
+        let Reading { matrices, factors } = self;
+        let Interleaved { unknowns, alpha, beta, rows, start, columns, blocks, rest } = matrices;
         assert_eq!(factors.len(), unknowns + 1, "factors for each unknown and one more");
         let mut found = Found { forms: [[0.; K]; 3], sum: vec![[0.; K]; factors.len()] };
         for (r, &i) in rows.iter().enumerate() {
@@ -169,7 +169,7 @@ impl<const K: usize> Kernel for Reading<'_, K> {
             let [mut u, mut v, mut w, mut sum] = [[[0.; K]; 2]; 4];
             for (&j, block) in columns.iter().zip(blocks) {
                 let there = pair(factors, j as usize);
-                let c = block.damping(*share);
+                let c = block.damping(*alpha, *beta);
                 u = plus(u, times(&block.a, there.map(|f| f.forms[0])));
                 v = plus(v, scaled(block.b, there.map(|f| f.forms[1])));
                 w = plus(w, times(&c, there.map(|f| f.forms[2])));
@@ -188,7 +188,7 @@ impl<const K: usize> Kernel for Reading<'_, K> {
             }
         }
         for entry in rest {
-            entry.add_to(&mut found, factors, share[0]);
+            entry.add_to(&mut found, factors, *alpha);
         }
         found.sum.pop();
         found
@@ -196,19 +196,20 @@ impl<const K: usize> Kernel for Reading<'_, K> {
 }
 
 impl Block {
-    /// Of a B + b A: (c_00, c_10, c_01, c_11).
+    /// alpha B + beta A: (c_00, c_10, c_01, c_11).
     #[inline(always)]
-    fn damping(&self, [a, b]: [f64; 2]) -> [f64; 4] {
+    fn damping(&self, alpha: f64, beta: f64) -> [f64; 4] {
         let [a_00, a_10, a_01, a_11] = self.a;
-        [a * self.b + b * a_00, b * a_10, b * a_01, a * self.b + b * a_11]
+        let of_mass = alpha * self.b;
+        [of_mass + beta * a_00, beta * a_10, beta * a_01, of_mass + beta * a_11]
     }
 }
 
 impl Rest {
     #[inline(always)]
-    fn add_to<const K: usize>(&self, found: &mut Found<K>, factors: &[Factors<K>], share: f64) {
+    fn add_to<const K: usize>(&self, found: &mut Found<K>, factors: &[Factors<K>], alpha: f64) {
         let Rest { row, column, b, e } = *self;
-        let (i, j, c) = (row as usize, column as usize, share * b + e);
+        let (i, j, c) = (row as usize, column as usize, alpha * b + e);
         let (here, there) = (&factors[i], &factors[j]);
         let twice = if i == j { 1. } else { 2. };
         for k in 0..K {
@@ -279,9 +280,9 @@ fn add<const K: usize>(sums: &mut [[f64; K]], i: usize, x: [[f64; K]; 2]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sparse::multiply;
     use crate::sparse::testing::{distance, grid_matrix, random};
     use crate::sparse::vector::{add, dot};
+    use crate::sparse::{multiply, without_zeros};
     use sprs::TriMat;
 
     /// Sums of some thirty products of numbers up to 1, each exact to 1e-16.
@@ -317,17 +318,18 @@ mod tests {
         let value = |[p, axis]: [usize; 2], [q, other_axis]: [usize; 2]| {
             values[2 * NODES * (2 * p + axis) + 2 * q + other_axis]
         };
-        let a = matrix(value);
+        // Two nodes that only mass couples.
+        let a = matrix(|p, q| if [p[0], q[0]] == [0, 1] { 0. } else { value(p, q) });
         let b = matrix(|p, q| match (p[1] == q[1], p, q) {
             (true, ..) => value([p[0], 0], [q[0], 0]) + if (p, q) == ([0, 1], [0, 1]) { 0.7 } else { 0. },
             (false, [0, _], [0, _]) => 0.3,
             _ => 0.,
         });
         let e = matrix(|p, q| if p[0] < 2 && q[0] < 2 { value(q, p) } else { 0. });
-        let share = [0.3, 0.02];
-        let c = &(&a.map(|a| share[1] * a) + &b.map(|b| share[0] * b)) + &e;
+        let (alpha, beta) = (0.3, 0.02);
+        let c = &(&a.map(|a| beta * a) + &b.map(|b| alpha * b)) + &e;
         let n = a.rows();
-        let interleaved = Interleaved::new([&a, &b], share, Some(&without_zeros(&e)));
+        let interleaved = Interleaved::new([&a, &b], [alpha, beta], Some(&without_zeros(&e)));
         assert!(interleaved.rows.len() < 6 * n / 10, "two unknowns at most nodes stand in one block");
         // what nodes with one unknown have in common with their neighbours, and the first node's two and E
         let rest = |e: bool| interleaved.rest.iter().filter(|entry| (entry.e != 0.) == e).count();
@@ -352,11 +354,5 @@ mod tests {
             assert!((form[0] - dot(v, &multiply(m, v))).abs() < ROUND_OFF * dot(v, v) * 10.);
             assert_eq!(form[1], 4. * form[0]);
         }
-    }
-
-    fn without_zeros(matrix: &CsMat<f64>) -> CsMat<f64> {
-        let mut sparse = TriMat::new(matrix.shape());
-        matrix.iter().filter(|(value, _)| **value != 0.).for_each(|(&value, (i, j))| sparse.add_triplet(i, j, value));
-        sparse.to_csr()
     }
 }

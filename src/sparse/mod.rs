@@ -26,7 +26,7 @@ pub use orders::Orders;
 pub use pivots::{NotPositiveDefinite, UnreliablePivot};
 pub use symmetric::Symmetric;
 
-use sprs::CsMat;
+use sprs::{CsMat, TriMat};
 
 /// A x.
 ///
@@ -35,6 +35,13 @@ use sprs::CsMat;
 pub fn multiply(a: &CsMat<f64>, x: &[f64]) -> Vec<f64> {
     assert_eq!(a.cols(), x.len(), "A x: columns of A and length of x");
     a.outer_iterator().map(|row| row.iter().map(|(j, aij)| aij * x[j]).sum()).collect()
+}
+
+/// The same matrix without the entries that are zero.
+pub fn without_zeros(matrix: &CsMat<f64>) -> CsMat<f64> {
+    let mut sparse = TriMat::new(matrix.shape());
+    matrix.iter().filter(|(value, _)| **value != 0.).for_each(|(&value, (i, j))| sparse.add_triplet(i, j, value));
+    sparse.to_csr()
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ fn moving_bodies(prepared: &Prepared, unsettled: &Unsettled) -> Vec<String> {
     let (Unsettled::Statuses { last, .. } | Unsettled::Residual { last, .. }) = unsettled else { return vec![] };
     let model = &prepared.model;
     let sentence = |body: &String| {
-        let of_body = |&i: &usize| seam(prepared, i).body == *body;
+        let of_body = |&i: &usize| seams(prepared, i).any(|seam| seam.body == *body);
         let points: Vec<usize> = (0..last.len()).filter(of_body).collect();
         let slipping: Vec<usize> = points.iter().copied().filter(|&i| last[i].is_slipping()).collect();
         let held = points.iter().any(|&i| last[i] == Status::Stick);
@@ -113,19 +113,19 @@ fn advice(unsettled: &Unsettled, otherwise: &str) -> String {
     }
 }
 
-/// The interface that a joint point lies on.
-fn seam(prepared: &Prepared, point: usize) -> &Seam {
-    let (joint, _) = prepared.system.interface.points[point].parts[0];
-    &prepared.model.seams[prepared.model.joints[joint].seam]
+/// The interfaces that a joint point lies on: two where one of a body's goes over into the next.
+fn seams(prepared: &Prepared, point: usize) -> impl Iterator<Item = &Seam> {
+    let elements = prepared.system.interface.points[point].parts.iter();
+    elements.map(|&(joint, _)| &prepared.model.seams[prepared.model.joints[joint].seam])
 }
 
-/// Up to six places of joint points; neighbouring joints have a point each at their common corner.
+/// Up to six places of joint points; joints that meet in a corner, or under two laws, have a point each there.
 fn places(prepared: &Prepared, points: &[usize]) -> String {
-    let place = |&i: &usize| {
+    let of_point = |&i: &usize| {
         let [x, y] = prepared.system.interface.points[i].at;
-        format!("{} at ({x:.4}, {y:.4}) m", seam(prepared, i).curve)
+        seams(prepared, i).map(move |seam| format!("{} at ({x:.4}, {y:.4}) m", seam.curve))
     };
-    let mut places: Vec<String> = points.iter().map(place).collect();
+    let mut places: Vec<String> = points.iter().flat_map(of_point).collect();
     places.sort_unstable();
     places.dedup();
     let and_more = if places.len() > 6 { format!(" and {} more", places.len() - 6) } else { String::new() };
