@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes this machine ready: what METIS and ISA-L are built with, Python, and .venv with gmsh, meshio and vtk in fixed
-# versions. Run it as often as you like, from anywhere: what is there already is left alone.
+# Makes this machine ready: a C compiler (METIS is compiled), Python, and .venv with gmsh, meshio and vtk in
+# fixed versions. Run it as often as you like, from anywhere: what is there already is left alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -39,12 +39,6 @@ gmsh_version() { # the wheel's command is a Python script whose first line names
 gmsh_runs() { [[ "$(gmsh_version)" =~ ^[0-9]+\.[0-9]+\.[0-9]+ ]]; }
 
 command -v cc >/dev/null || install_debian "There is no C compiler." build-essential
-for tool in nasm autoconf automake libtoolize make; do
-  command -v "$tool" >/dev/null || {
-    install_debian "There is no $tool, which ISA-L is built with." nasm autoconf automake libtool make
-    break
-  }
-done
 
 if ! python3 -c 'import venv, ensurepip' 2>"$problem"; then
   install_debian "There is no Python 3 that can make virtual environments." python3 python3-venv
@@ -62,7 +56,7 @@ gmsh_runs || install_debian "gmsh lacks shared libraries." "${libraries[@]}"
 gmsh_runs || give_up "gmsh still does not run: $(gmsh_version)"
 
 say "gmsh $(gmsh_version) runs, and meshio and vtk are installed, in .venv."
-say "A C compiler and the tools to build ISA-L are ready: $(command -v cc nasm libtoolize | tr '\n' ' ')."
+say "A C compiler is ready: $(command -v cc)."
 if command -v cargo >/dev/null; then
   say "Rust is ready: $(cargo --version)."
 else

@@ -120,9 +120,9 @@ impl Grid {
         }
     }
 
-    /// The .vtu file of a frame, displacements counted from the unknowns `origin`. Displacement, stress and the interfaces'
-    /// numbers are in double precision; what has an error far above round-off or can be had from them is in single
-    /// precision: half the bytes and time.
+    /// The .vtu file of a frame, displacements counted from the unknowns `origin`. Displacement, stress and the
+    /// interfaces' numbers are in double precision; what has an error far above round-off or can be had from them is in
+    /// single precision: half the bytes and time.
     pub fn vtu(&self, frame: &Frame, origin: &[f64]) -> Result<String> {
         // what stresses come from: the part of gravity is in it
         let total_displacement = self.unknowns.at_nodes(&frame.q);
