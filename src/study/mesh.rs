@@ -16,6 +16,7 @@ use std::time::{Duration, Instant};
 #[derive(Debug)]
 pub struct Meshed {
     pub mesh: Mesh,
+    /// known to the runs of a sweep
     pub openings: Openings,
     pub path: PathBuf,
     /// of the bytes that became `mesh`

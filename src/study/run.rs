@@ -11,6 +11,7 @@ use crate::model::case::{Analysis, Case};
 use crate::model::hold::refuse_loose;
 use crate::model::idle::idle;
 use crate::model::initial::Initial;
+use crate::model::openings::Openings;
 use crate::model::resolve::Model;
 use crate::number::seconds;
 use crate::results::folder::Folder;
@@ -85,12 +86,13 @@ pub struct Loaded {
 pub fn load(request: &Request) -> Result<Loaded> {
     let case = Case::read(&request.case, &request.sets)?;
     let meshed = mesh::obtain(&case, &request.geo, request.mesh.as_deref())?;
-    let model = model(&case, &meshed, request.bonded)?;
+    let model = model(&case, &meshed, request.bonded, &Openings::default())?;
     Ok(Loaded { case, meshed, model })
 }
 
-pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool) -> Result<Model> {
-    let mut model = Model::opened(case, &meshed.mesh, bonded, &meshed.openings)?;
+/// With what is known of the mesh's `openings`: a single run keeps none.
+pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openings) -> Result<Model> {
+    let mut model = Model::opened(case, &meshed.mesh, bonded, openings)?;
     model.warnings.extend(idle(case, &model));
     model.warnings.extend(meshed.warnings.iter().cloned());
     Ok(model)

@@ -75,7 +75,7 @@ impl Job {
 
     /// Errors: names, places and supports that do not fit the mesh.
     pub fn model(&self) -> Result<Model> {
-        let model = run::model(&self.case, &self.meshed, self.inputs.bonded)?;
+        let model = run::model(&self.case, &self.meshed, self.inputs.bonded, &self.meshed.openings)?;
         refuse_loose(&model)?;
         Ok(model)
     }
