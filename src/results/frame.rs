@@ -123,7 +123,7 @@ impl Grid {
     /// The .vtu file of a frame, displacements counted from the unknowns `origin`. Displacement, stress and the
     /// interfaces' numbers are in double precision; what has an error far above round-off or can be had from them is in
     /// single precision: half the bytes and time.
-    pub fn vtu(&self, frame: &Frame, origin: &[f64]) -> Result<String> {
+    pub fn vtu(&self, frame: &Frame, origin: &[f64]) -> Result<Vec<u8>> {
         // what stresses come from: the part of gravity is in it
         let total_displacement = self.unknowns.at_nodes(&frame.q);
         let centres = self.recovery.stresses(&total_displacement);
@@ -132,7 +132,7 @@ impl Grid {
         self.add_point_data(&mut file, frame, origin, &nodal_stresses);
         self.add_cell_data(&mut file, &frame.joints, &centres);
         let why = |e| Error::input(format!("the frame at {} cannot be written as VTU: {e}", seconds(frame.time)));
-        file.text().map_err(why)
+        file.bytes().map_err(why)
     }
 
     fn add_point_data(&self, file: &mut vtu::File, frame: &Frame, origin: &[f64], stress: &[[f64; 4]]) {

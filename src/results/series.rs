@@ -32,7 +32,7 @@ impl Series {
     /// `origin`: the unknowns that displacements are counted from.
     pub fn write(&mut self, grid: &Grid, frame: &Frame, origin: &[f64]) -> Result<()> {
         let path = self.frame_path(self.count);
-        file::replace(&self.folder.join(&path), grid.vtu(frame, origin)?.as_bytes())?;
+        file::replace(&self.folder.join(&path), &grid.vtu(frame, origin)?)?;
         let (time, path) = (frame.time, escaped(&path));
         self.index += &format!("    <DataSet timestep=\"{time:e}\" part=\"0\" file=\"{path}\"/>\n");
         self.count += 1;

@@ -40,7 +40,7 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     for (i, mode) in modes.iter().enumerate() {
         let shape = State { q: mode.shape.clone(), ..rest.clone() };
         let path = folder.join(format!("{}_mode_{}.vtu", case.name(), i + 1));
-        file::replace(&path, grid.vtu(&Frame::of(&prepared.model, &prepared.system, &shape), &rest.q)?.as_bytes())?;
+        file::replace(&path, &grid.vtu(&Frame::of(&prepared.model, &prepared.system, &shape), &rest.q)?)?;
         table += &format!("{:4}  {:14.6}  {}\n", i + 1, mode.frequency, path.display());
     }
     Ok(table)
