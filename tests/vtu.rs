@@ -1,0 +1,40 @@
+//! What other programs find in a .vtu file.
+
+mod frames;
+
+use coralpipe::results::vtu::{Base, File};
+use vtkio::model::{Attribute, CellType, IOBuffer, VertexNumbers};
+
+/// As many points as fill blocks of 32 KiB exactly, numbers without zeros, which stay as they are, some with, a constant.
+#[test]
+fn what_another_reader_finds_is_what_was_given() {
+    let scattered = |i: usize| (i as f64 + 0.5).powf(1.7).sin() * 10f64.powi(i as i32 % 50 - 25);
+    let points: Vec<[f64; 3]> = (0..4096).map(|i| [scattered(i), scattered(i + 7), 0.]).collect();
+    let connectivity: Vec<u64> = (0..4095).flat_map(|i| [i, i + 1]).collect();
+    let offsets: Vec<u64> = (1..4096).map(|i| 2 * i).collect();
+    let values: Vec<f64> = (0..4096).map(scattered).collect();
+    let single: Vec<f32> = (0..3 * 4096).map(|i| scattered(i) as f32).collect();
+    let some: Vec<f64> = (0..4095).map(|i| if i % 3 == 0 { scattered(i) } else { 0. }).collect();
+    let constant = vec![7i32; 4095];
+
+    let base = Base::new(&points, &connectivity, &offsets, &[CellType::Line; 4095]);
+    let mut file = File::new(&base);
+    file.point(Attribute::scalars("values", 1), &values);
+    file.point(Attribute::vectors("single"), &single);
+    file.cell(Attribute::scalars("some", 1), &some);
+    file.cell(Attribute::scalars("constant", 1), &constant);
+    let bytes = file.bytes().unwrap();
+
+    let piece = frames::piece(&bytes).unwrap();
+    let found = |data: &[Attribute], i: usize| match &data[i] {
+        Attribute::DataArray(array) => (array.name.clone(), array.data.clone()),
+        Attribute::Field { .. } => panic!("no array"),
+    };
+    assert_eq!(piece.points, IOBuffer::F64(points.into_flattened()));
+    assert_eq!(piece.cells.cell_verts, VertexNumbers::XML { connectivity, offsets });
+    assert_eq!(piece.cells.types, [CellType::Line; 4095]);
+    assert_eq!(found(&piece.data.point, 0), ("values".into(), IOBuffer::F64(values)));
+    assert_eq!(found(&piece.data.point, 1), ("single".into(), IOBuffer::F32(single)));
+    assert_eq!(found(&piece.data.cell, 0), ("some".into(), IOBuffer::F64(some)));
+    assert_eq!(found(&piece.data.cell, 1), ("constant".into(), IOBuffer::I32(constant)));
+}
