@@ -7,6 +7,7 @@ use super::unsettled::{Place, Unsettled};
 use crate::sparse::lanes::TILE;
 use crate::sparse::widest::{Kernel, on_widest};
 use crate::sparse::{Factors, Lanes};
+use std::ops::Range;
 
 /// The motion of one case.
 pub struct Motion {
@@ -35,38 +36,61 @@ impl Motion {
     }
 }
 
-/// The motion of each case after a step from its `old` state to the displacements x, with `room` in each vector, and
-/// what the matrices are multiplied by: a row for each unknown and a last one that stands for nothing.
-pub fn moved<const K: usize>(law: Law, x: &Lanes<K>, old: &[&State], room: usize) -> (Vec<Motion>, Vec<Factors<K>>) {
-    let mut vectors: Vec<[Vec<f64>; 3]> = old.iter().map(|_| [0; 3].map(|_| Vec::with_capacity(room))).collect();
-    let mut factors = Vec::with_capacity(x.len() + 1);
-    let mut spoilt = [0.; K];
-    let mut tile = [[[0.; K]; TILE]; 3];
-    for (number, x) in x.chunks(TILE).enumerate() {
-        let here = TILE * number..TILE * number + x.len();
-        for (k, State { q, v, a, .. }) in old.iter().enumerate() {
-            for (rows, vector) in tile.iter_mut().zip([q, v, a]) {
-                rows.iter_mut().zip(&vector[here.clone()]).for_each(|(row, x)| row[k] = *x);
+/// The motions of all cases in the making: part by part, each from its old state to the displacements of a step.
+pub struct Motions<'a, const K: usize> {
+    law: Law,
+    old: &'a [&'a State],
+    /// u, v, a of the unknowns of each case
+    vectors: Vec<[Vec<f64>; 3]>,
+    /// 1 where a case has a number that is not as [`is_finite`] says
+    spoilt: [f64; K],
+}
+
+impl<'a, const K: usize> Motions<'a, K> {
+    /// `room`: for so many numbers in each vector.
+    pub fn new(law: Law, old: &'a [&'a State], unknowns: usize, room: usize) -> Motions<'a, K> {
+        let vector = || {
+            let mut vector = Vec::with_capacity(room);
+            vector.resize(unknowns, 0.);
+            vector
+        };
+        Motions { law, old, vectors: old.iter().map(|_| [vector(), vector(), vector()]).collect(), spoilt: [0.; K] }
+    }
+
+    /// Moves a part of the unknowns to their new displacements among x, and tells what the matrices are multiplied by
+    /// there.
+    pub fn follow(&mut self, part: Range<usize>, x: &Lanes<K>, factors: &mut [Factors<K>]) {
+        let mut tile = [[[0.; K]; TILE]; 3];
+        for first in part.clone().step_by(TILE) {
+            let here = first..part.end.min(first + TILE);
+            for (k, State { q, v, a, .. }) in self.old.iter().enumerate() {
+                for (rows, vector) in tile.iter_mut().zip([q, v, a]) {
+                    rows.iter_mut().zip(&vector[here.clone()]).for_each(|(row, x)| row[k] = *x);
+                }
             }
-        }
-        on_widest(Follow { law, x, motions: &mut tile, factors: &mut factors, spoilt: &mut spoilt });
-        for (k, vectors) in vectors.iter_mut().enumerate() {
-            for (vector, rows) in vectors.iter_mut().zip(&tile) {
-                vector.extend(rows[..x.len()].iter().map(|row| row[k]));
+            let (x, factors) = (&x[here.clone()], &mut factors[here.clone()]);
+            on_widest(Follow { law: self.law, x, motions: &mut tile, factors, spoilt: &mut self.spoilt });
+            for (k, vectors) in self.vectors.iter_mut().enumerate() {
+                for (vector, rows) in vectors.iter_mut().zip(&tile) {
+                    vector[here.clone()].iter_mut().zip(rows).for_each(|(x, row)| *x = row[k]);
+                }
             }
         }
     }
-    factors.push(Factors::ZERO);
-    let motion = |(vectors, spoilt)| Motion { vectors, finite: spoilt == 0. };
-    (vectors.into_iter().zip(spoilt).map(motion).collect(), factors)
+
+    /// When all parts have moved.
+    pub fn done(self) -> Vec<Motion> {
+        let motion = |(vectors, spoilt)| Motion { vectors, finite: spoilt == 0. };
+        self.vectors.into_iter().zip(self.spoilt).map(motion).collect()
+    }
 }
 
-/// Takes some unknowns' motions (u, v, a) to the displacements x, and appends what the matrices are multiplied by.
+/// Takes some unknowns' motions (u, v, a) to the displacements x, and tells what the matrices are multiplied by.
 struct Follow<'a, const K: usize> {
     law: Law,
     x: &'a Lanes<K>,
     motions: &'a mut [[[f64; K]; TILE]; 3],
-    factors: &'a mut Vec<Factors<K>>,
+    factors: &'a mut [Factors<K>],
     /// 1 where a number is not as [`is_finite`] says
     spoilt: &'a mut [f64; K],
 }
@@ -77,10 +101,10 @@ impl<const K: usize> Kernel for Follow<'_, K> {
     #[inline(always)]
     fn run(self) {
         let [q, v, a] = self.motions;
-        for (((u, q), v), a) in self.x.iter().zip(q).zip(v).zip(a) {
-            let (now, factors) = follow(self.law, u, [*q, *v, *a]);
+        for ((((u, q), v), a), factors) in self.x.iter().zip(q).zip(v).zip(a).zip(self.factors) {
+            let now;
+            (now, *factors) = follow(self.law, u, [*q, *v, *a]);
             [*q, *v, *a] = now;
-            self.factors.push(factors);
             for k in 0..K {
                 let finite = is_finite(now[0][k]) & is_finite(now[1][k]) & is_finite(now[2][k]);
                 self.spoilt[k] = if finite { self.spoilt[k] } else { 1. };
@@ -92,14 +116,14 @@ impl<const K: usize> Kernel for Follow<'_, K> {
 /// (u, v, a) of an unknown in all cases, and what the matrices are multiplied by there.
 #[inline(always)]
 fn follow<const K: usize>(law: Law, u: &[f64; K], before: [[f64; K]; 3]) -> ([[f64; K]; 3], Factors<K>) {
-    let (mut motions, mut factors) = ([[0.; K]; 3], Factors::ZERO);
+    let (mut motions, mut factors) = ([[0.; K]; 3], [[0.; K]; 5]);
     for k in 0..K {
         let v_before = before[1][k];
         let motion = law.follow(u[k], [before[0][k], v_before, before[2][k]]);
         let (forms, sum) = (Forms::factors(motion[0], motion[1], v_before), law.onward(motion));
         (0..3).for_each(|m| motions[m][k] = motion[m]);
-        (0..3).for_each(|m| factors.forms[m][k] = forms[m]);
-        (0..2).for_each(|m| factors.sum[m][k] = sum[m]);
+        (0..3).for_each(|m| factors[m][k] = forms[m]);
+        (0..2).for_each(|m| factors[3 + m][k] = sum[m]);
     }
     (motions, factors)
 }
@@ -128,20 +152,28 @@ mod tests {
         (0..COUNT).map(|i| std::array::from_fn(|k| (i * k) as f64)).collect()
     }
 
+    /// In two parts, the last unknowns first.
+    fn moved(law: Law, x: &[[f64; 4]], old: &[State; 3]) -> (Vec<Motion>, Vec<Factors<4>>) {
+        let old = old.each_ref();
+        let mut motions = Motions::new(law, &old, COUNT, COUNT);
+        let mut factors = vec![[[0.; 4]; 5]; COUNT];
+        [5..COUNT, 0..5].into_iter().for_each(|part| motions.follow(part, x, &mut factors));
+        (motions.done(), factors)
+    }
+
     #[test]
     fn each_case_moves_by_itself() {
         let law = Law::new(Scheme::Dynamic(Integrator::default()), 0.1);
         let (old, x) = (cases(), displacements());
-        let (motions, factors) = moved(law, &x, &old.each_ref(), COUNT);
-        assert_eq!((factors.len(), factors[COUNT]), (COUNT + 1, Factors::ZERO));
+        let (motions, factors) = moved(law, &x, &old);
         for k in 0..3 {
             assert!(motions[k].finite);
             for i in 0..COUNT {
                 let before = motion(k, i);
                 let now = law.follow(x[i][k], before);
                 assert_eq!([0, 1, 2].map(|m| motions[k].vectors[m][i]), now);
-                assert_eq!(factors[i].forms.map(|f| f[k]), [now[0], now[1], (now[1] + before[1]) / 2.]);
-                assert_eq!(factors[i].sum.map(|f| f[k]), law.onward(now));
+                let [x, y] = law.onward(now);
+                assert_eq!(factors[i].map(|f| f[k]), [now[0], now[1], (now[1] + before[1]) / 2., x, y]);
             }
         }
     }
@@ -167,6 +199,6 @@ mod tests {
     }
 
     fn finite(law: Law, x: &[[f64; 4]], old: &[State; 3]) -> Vec<bool> {
-        moved(law, x, &old.each_ref(), COUNT).0.iter().map(|motion| motion.finite).collect()
+        moved(law, x, old).0.iter().map(|motion| motion.finite).collect()
     }
 }

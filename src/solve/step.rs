@@ -7,13 +7,15 @@ use super::free_field::Column;
 use super::interface::JointState;
 use super::joints::Joints;
 use super::law::{Law, Scheme};
-use super::motion::moved;
+use super::motion::{Motion, Motions};
 use super::system::{State, System};
 use super::unsettled::Unsettled;
 use crate::model::case::Newton;
-use crate::sparse::lanes::{apart, side_by_side};
-use crate::sparse::vector::add;
-use crate::sparse::{Found, MOST_LANES, NotPositiveDefinite, Symbolic, with_lanes_for};
+use crate::sparse::lanes::{Lane, side_by_side};
+use crate::sparse::{
+    Factor, Factors, Found, Interleaved, Lanes, MOST_LANES, NotPositiveDefinite, Reading, Symbolic, with_lanes_for,
+};
+use std::ops::Range;
 
 /// Steps of one length, their matrix factored.
 pub struct Stepper {
@@ -21,6 +23,8 @@ pub struct Stepper {
     condensed: Condensed,
     /// the same for each column beyond a free-field side
     columns: Vec<Stepper>,
+    /// for the [`Factors`] of a step, which are too large to be made anew each time
+    room: Vec<f64>,
 }
 
 /// An accepted step, or where the first one starts.
@@ -41,8 +45,8 @@ pub struct Step {
 struct Onward {
     /// of the step, and so of its length
     law: Law,
-    /// M x + C y, x and y as [`Law::onward`] says, and the forces that act at all times [N]
-    forces: Vec<f64>,
+    /// M x + C y, x and y as [`Law::onward`] says [N]
+    forces: Lane,
 }
 
 impl Step {
@@ -74,12 +78,13 @@ impl Stepper {
     ) -> Result<Stepper, NotPositiveDefinite> {
         let law = Law::new(scheme, dt);
         let Law::Dynamic(dynamic) = law else {
-            return Ok(Stepper { law, condensed: Condensed::hanging(system, symbolic, options)?, columns: vec![] });
+            let condensed = Condensed::hanging(system, symbolic, options)?;
+            return Ok(Stepper { law, condensed, columns: vec![], room: vec![] });
         };
         let condensed = Condensed::new(system, symbolic, &dynamic.matrix(system), options)?;
         let column = |c: &Column| Stepper::new(&c.system, &c.symbolic, scheme, dt, options);
         let columns = system.columns.iter().map(column).collect::<Result<_, _>>()?;
-        Ok(Stepper { law, condensed, columns })
+        Ok(Stepper { law, condensed, columns, room: vec![] })
     }
 
     /// For a system that differs in loads and friction only: the factor is the same.
@@ -88,6 +93,7 @@ impl Stepper {
             law: self.law,
             condensed: self.condensed.sharing_factor(),
             columns: self.columns.iter().map(Stepper::sharing_factor).collect(),
+            room: vec![],
         }
     }
 
@@ -159,12 +165,13 @@ fn step_lanes<const K: usize>(
             Ok(settled)
         })
         .collect();
-    steppers[0].condensed.factor().expand_lanes(&mut x);
     let states: Vec<&State> = old.iter().map(|old| &old.state).collect();
-    let (motions, factors) = moved(law, &x, &states, systems[0].unknowns.with_jumps());
-    let Found { forms, sum } = systems[0].interleaved().read(&factors);
-    let onward = apart(&sum, old.len());
-    let [strain, kinetic, drained] = forms;
+    let mut room = std::mem::take(&mut steppers[0].room);
+    let motions = Motions::new(law, &states, x.len(), systems[0].unknowns.with_jumps());
+    let (motions, found) = back(steppers[0].condensed.factor(), systems[0].interleaved(), motions, &mut x, &mut room);
+    steppers[0].room = room;
+    let [strain, kinetic, drained] = found.forms;
+    let onward = Lane::each(found.sum, old.len());
     let stepped = cases.zip(settled).zip(free_fields).zip(motions).zip(onward);
     stepped
         .map(|((((k, settled), free_field), motion), forces)| {
@@ -176,10 +183,45 @@ fn step_lanes<const K: usize>(
                 iterations,
                 displacement_test,
                 forms: Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] },
-                onward: Some(with_lasting_loads(systems[k], law, forces)),
+                onward: Some(Onward { law, forces }),
             })
         })
         .collect()
+}
+
+/// From the displacements of the border among x to all motions, and what the matrices make of them. Each part of the
+/// unknowns goes through all of it while its numbers are in the cache.
+fn back<const K: usize>(
+    factor: &Factor,
+    matrices: &Interleaved,
+    mut motions: Motions<K>,
+    x: &mut Lanes<K>,
+    room: &mut Vec<f64>,
+) -> (Vec<Motion>, Found<K>) {
+    let factors = factors_in(room, x.len());
+    let mut reading = Reading::new(matrices);
+    let mut next = |part: Range<usize>, x: &Lanes<K>| {
+        motions.follow(part.clone(), x, factors);
+        reading.down_to(part.start, factors);
+    };
+    let border = factor.border();
+    next(border..x.len(), x);
+    for part in factor.parts(PART / K) {
+        factor.expand_part(&part, x);
+        next(part.unknowns, x);
+    }
+    (motions.done(), reading.found(factors))
+}
+
+/// Unknowns times cases that go through it together: thirteen numbers each, which the processor's own cache should hold.
+const PART: usize = 8192;
+
+/// For each unknown, whatever was there before, and a last one that stands for nothing.
+fn factors_in<const K: usize>(room: &mut Vec<f64>, unknowns: usize) -> &mut [Factors<K>] {
+    room.resize(5 * K * (unknowns + 1), 0.);
+    let factors: &mut [Factors<K>] = room.as_chunks_mut().0.as_chunks_mut().0;
+    factors[unknowns] = [[0.; K]; 5];
+    factors
 }
 
 /// Row i: what unknown i has on the right-hand side of each system. One whose columns did not settle lacks their
@@ -196,8 +238,11 @@ fn right_hand_sides<const K: usize>(
     };
     let made_now: Vec<Option<Onward>> = (0..old.len()).map(onward).collect();
     let known = |k: usize| made_now[k].as_ref().or(old[k].onward.as_ref()).expect("one of them");
-    let mut x = side_by_side(&(0..old.len()).map(|k| known(k).forces.as_slice()).collect::<Vec<_>>());
+    let mut x = side_by_side(&(0..old.len()).map(|k| &known(k).forces).collect::<Vec<_>>());
     for (k, free_field) in free_fields.iter().enumerate() {
+        for lasting in systems[k].lasting_loads() {
+            x.iter_mut().zip(lasting).for_each(|(x, f)| x[k] += f);
+        }
         let free_field = free_field.as_deref().unwrap_or_default();
         law.forces(systems[k], &old[k].state, free_field).into_iter().for_each(|(i, f)| x[i][k] += f);
     }
@@ -205,10 +250,5 @@ fn right_hand_sides<const K: usize>(
 }
 
 fn onward_of(system: &System, law: Law, State { q, v, a, .. }: &State) -> Onward {
-    with_lasting_loads(system, law, system.interleaved().sum(|i| law.onward([q[i], v[i], a[i]])))
-}
-
-fn with_lasting_loads(system: &System, law: Law, mut forces: Vec<f64>) -> Onward {
-    system.lasting_loads().for_each(|f| add(&mut forces, 1., f));
-    Onward { law, forces }
+    Onward { law, forces: Lane::alone(system.interleaved().sum(|i| law.onward([q[i], v[i], a[i]]))) }
 }

@@ -210,6 +210,11 @@ impl Factor {
         self.len() == 0
     }
 
+    /// The first of the unknowns that [`Factor::condense`] leaves.
+    pub fn border(&self) -> usize {
+        self.panels.columns_of(0..self.panels.border).end
+    }
+
     /// Number of stored entries of L, zeros inside supernodes counted.
     pub fn entries(&self) -> usize {
         self.forward.len()

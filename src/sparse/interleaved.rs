@@ -3,6 +3,7 @@
 
 use super::widest::{Kernel, on_widest};
 use sprs::CsMat;
+use std::ops::Range;
 
 /// A and B in 2 x 2 blocks of neighbouring unknowns: most unknowns are two at a node, with the same neighbours, and the
 /// same mass along both axes.
@@ -13,7 +14,7 @@ pub struct Interleaved {
     unknowns: usize,
     alpha: f64,
     beta: f64,
-    /// first unknown of each block row
+    /// first unknown of each block row, the last rows first
     rows: Vec<u32>,
     /// where the blocks of each row begin; the first is the diagonal one
     start: Vec<usize>,
@@ -42,20 +43,11 @@ struct Rest {
     e: f64,
 }
 
-/// What the matrices are multiplied by in one unknown, for each of K cases.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Factors<const K: usize> {
-    /// u, v, w of the forms u'A u, v'B v, w'C w
-    pub forms: [[f64; K]; 3],
-    /// x, y of the sum B x + C y
-    pub sum: [[f64; K]; 2],
-}
+/// What the matrices are multiplied by in one unknown, for each of K cases: u, v, w of the forms u'A u, v'B v, w'C w,
+/// then x, y of the sum B x + C y.
+pub type Factors<const K: usize> = [[f64; K]; 5];
 
-impl<const K: usize> Factors<K> {
-    pub const ZERO: Factors<K> = Factors { forms: [[0.; K]; 3], sum: [[0.; K]; 2] };
-}
-
-/// What one reading has found.
+/// What a reading has found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found<const K: usize> {
     /// u'A u, v'B v, w'C w
@@ -76,7 +68,7 @@ impl Interleaved {
         let row = |i: usize| a.indptr().outer_inds_sz(i);
         let (mut rows, mut start, mut columns, mut blocks) = (vec![], vec![0], vec![], vec![]);
         let mut rest = Vec::new();
-        for i in (0..a.rows()).filter(|&i| first[i] == i) {
+        for i in (0..a.rows()).rev().filter(|&i| first[i] == i) {
             let before = columns.len();
             for (place, &j) in row(i).zip(&a.indices()[row(i)]).filter(|(_, j)| **j >= i && first[**j] == **j) {
                 // the partner's row has the same columns, a partner's column is the next one
@@ -104,26 +96,28 @@ impl Interleaved {
 
     /// u'A u, v'B v and w'C w of one case, from each unknown's (u, v, w).
     pub fn forms(&self, of_unknown: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
-        let factors = |i: usize| Factors { forms: of_unknown(i).map(|x| [x]), ..Factors::ZERO };
-        self.read(&self.for_each_unknown(factors)).forms.map(|[form]| form)
+        let factors = |i: usize| {
+            let [u, v, w] = of_unknown(i);
+            [u, v, w, 0., 0.]
+        };
+        self.read_alone(factors).forms.map(|[form]| form)
     }
 
     /// B x + C y of one case, from each unknown's (x, y).
     pub fn sum(&self, of_unknown: impl Fn(usize) -> [f64; 2]) -> Vec<f64> {
-        let factors = |i: usize| Factors { sum: of_unknown(i).map(|x| [x]), ..Factors::ZERO };
-        self.read(&self.for_each_unknown(factors)).sum.into_iter().map(|[f]| f).collect()
+        let factors = |i: usize| {
+            let [x, y] = of_unknown(i);
+            [0., 0., 0., x, y]
+        };
+        self.read_alone(factors).sum.into_flattened()
     }
 
-    fn for_each_unknown(&self, factors: impl Fn(usize) -> Factors<1>) -> Vec<Factors<1>> {
-        (0..self.unknowns).map(factors).chain([Factors::ZERO]).collect()
-    }
-
-    /// Forms and sum of each unknown's factors.
-    ///
-    /// # Panics
-    /// If there is not one set of factors for each unknown and one more, whose numbers are not used.
-    pub fn read<const K: usize>(&self, factors: &[Factors<K>]) -> Found<K> {
-        on_widest(Reading { matrices: self, factors })
+    fn read_alone(&self, of_unknown: impl Fn(usize) -> [f64; 5]) -> Found<1> {
+        let factors: Vec<Factors<1>> =
+            (0..self.unknowns).map(|i| of_unknown(i).map(|x| [x])).chain([[[0.]; 5]]).collect();
+        let mut reading = Reading::new(self);
+        reading.down_to(0, &factors);
+        reading.found(&factors)
     }
 }
 
@@ -149,49 +143,84 @@ fn first_of_blocks(pattern: &CsMat<f64>) -> Vec<usize> {
     first
 }
 
-struct Reading<'a, const K: usize> {
+/// Forms and sum in the making: the last unknowns' rows are read first, so that it makes no difference where the reading
+/// pauses.
+pub struct Reading<'a, const K: usize> {
     matrices: &'a Interleaved,
-    factors: &'a [Factors<K>],
+    /// block rows that are read
+    done: usize,
+    found: Found<K>,
 }
 
-impl<const K: usize> Kernel for Reading<'_, K> {
-    type Output = Found<K>;
+impl<const K: usize> Reading<'_, K> {
+    pub fn new(matrices: &Interleaved) -> Reading<'_, K> {
+        let found = Found { forms: [[0.; K]; 3], sum: vec![[0.; K]; matrices.unknowns + 1] };
+        Reading { matrices, done: 0, found }
+    }
+
+    /// Reads the rows from unknown `first` on that are still to be read: of these and of all behind them the factors
+    /// are known.
+    ///
+    /// # Panics
+    /// If there are not factors for each unknown and one more, whose numbers are not used but must be numbers.
+    pub fn down_to(&mut self, first: usize, factors: &[Factors<K>]) {
+        assert_eq!(factors.len(), self.matrices.unknowns + 1, "factors for each unknown and one more");
+        let rows = self.done..self.matrices.rows.partition_point(|&row| row as usize >= first);
+        self.done = rows.end;
+        on_widest(Rows { matrices: self.matrices, rows, factors, found: &mut self.found });
+    }
+
+    /// When all rows are read.
+    pub fn found(mut self, factors: &[Factors<K>]) -> Found<K> {
+        debug_assert_eq!(self.done, self.matrices.rows.len(), "all rows are read");
+        for entry in &self.matrices.rest {
+            entry.add_to(&mut self.found, factors, self.matrices.alpha);
+        }
+        self.found.sum.pop();
+        self.found
+    }
+}
+
+/// Some block rows.
+struct Rows<'a, const K: usize> {
+    matrices: &'a Interleaved,
+    rows: Range<usize>,
+    factors: &'a [Factors<K>],
+    found: &'a mut Found<K>,
+}
+
+impl<const K: usize> Kernel for Rows<'_, K> {
+    type Output = ();
 
     #[inline(always)]
-    fn run(self) -> Found<K> {
-        let Reading { matrices, factors } = self;
-        let Interleaved { unknowns, alpha, beta, rows, start, columns, blocks, rest } = matrices;
-        assert_eq!(factors.len(), unknowns + 1, "factors for each unknown and one more");
-        let mut found = Found { forms: [[0.; K]; 3], sum: vec![[0.; K]; factors.len()] };
-        for (r, &i) in rows.iter().enumerate() {
+    fn run(self) {
+        let Rows { matrices, rows, factors, found } = self;
+        let Interleaved { alpha, beta, rows: first_of, start, columns, blocks, .. } = matrices;
+        for r in rows {
+            let i = first_of[r] as usize;
             let (columns, blocks) = (&columns[start[r]..start[r + 1]], &blocks[start[r]..start[r + 1]]);
-            let here = pair(factors, i as usize);
+            let here = pair(factors, i);
             let [mut u, mut v, mut w, mut sum] = [[[0.; K]; 2]; 4];
             for (&j, block) in columns.iter().zip(blocks) {
                 let there = pair(factors, j as usize);
                 let c = block.damping(*alpha, *beta);
-                u = plus(u, times(&block.a, there.map(|f| f.forms[0])));
-                v = plus(v, scaled(block.b, there.map(|f| f.forms[1])));
-                w = plus(w, times(&c, there.map(|f| f.forms[2])));
-                sum = plus(sum, plus(scaled(block.b, there.map(|f| f.sum[0])), times(&c, there.map(|f| f.sum[1]))));
+                u = plus(u, times(&block.a, there.map(|f| f[0])));
+                v = plus(v, scaled(block.b, there.map(|f| f[1])));
+                w = plus(w, times(&c, there.map(|f| f[2])));
+                sum = plus(sum, plus(scaled(block.b, there.map(|f| f[3])), times(&c, there.map(|f| f[4]))));
                 let c = transposed(c);
-                let below = plus(scaled(block.b, here.map(|f| f.sum[0])), times(&c, here.map(|f| f.sum[1])));
+                let below = plus(scaled(block.b, here.map(|f| f[3])), times(&c, here.map(|f| f[4])));
                 add(&mut found.sum, j as usize, below);
             }
-            add(&mut found.sum, i as usize, sum);
+            add(&mut found.sum, i, sum);
             for (m, right) in [u, v, w].into_iter().enumerate() {
-                let here = here.map(|f| f.forms[m]);
+                let here = here.map(|f| f[m]);
                 for k in 0..K {
                     // Each block stands for two, the diagonal one is half of itself.
                     found.forms[m][k] += 2. * (here[0][k] * right[0][k] + here[1][k] * right[1][k]);
                 }
             }
         }
-        for entry in rest {
-            entry.add_to(&mut found, factors, *alpha);
-        }
-        found.sum.pop();
-        found
     }
 }
 
@@ -213,11 +242,11 @@ impl Rest {
         let (here, there) = (&factors[i], &factors[j]);
         let twice = if i == j { 1. } else { 2. };
         for k in 0..K {
-            found.forms[1][k] += twice * b * here.forms[1][k] * there.forms[1][k];
-            found.forms[2][k] += twice * c * here.forms[2][k] * there.forms[2][k];
-            found.sum[i][k] += b * there.sum[0][k] + c * there.sum[1][k];
+            found.forms[1][k] += twice * b * here[1][k] * there[1][k];
+            found.forms[2][k] += twice * c * here[2][k] * there[2][k];
+            found.sum[i][k] += b * there[3][k] + c * there[4][k];
             if i != j {
-                found.sum[j][k] += b * here.sum[0][k] + c * here.sum[1][k];
+                found.sum[j][k] += b * here[3][k] + c * here[4][k];
             }
         }
     }
@@ -339,9 +368,12 @@ mod tests {
         let [u, v, w, x, y] = [4, 5, 6, 7, 8].map(|seed| random(n, seed));
         // The second case has twice the first's.
         let twice = |x: f64| [x, 2. * x];
-        let of_unknown = |i: usize| Factors { forms: [u[i], v[i], w[i]].map(twice), sum: [x[i], y[i]].map(twice) };
-        let factors: Vec<Factors<2>> = (0..n).map(of_unknown).chain([Factors::ZERO]).collect();
-        let found = interleaved.read(&factors);
+        let of_unknown = |i: usize| [u[i], v[i], w[i], x[i], y[i]].map(twice);
+        let factors: Vec<Factors<2>> = (0..n).map(of_unknown).chain([[[0.; 2]; 5]]).collect();
+        // Row by row those of the last unknowns, with one cut inside a block, then all that are left.
+        let mut reading = Reading::new(&interleaved);
+        [n - 1, n - 2, n - 8, n - 9, 0].into_iter().for_each(|first| reading.down_to(first, &factors));
+        let found = reading.found(&factors);
 
         let mut sum = multiply(&b, &x);
         add(&mut sum, 1., &multiply(&c, &y));

@@ -17,7 +17,7 @@ pub mod vector;
 pub(crate) mod widest;
 
 pub use factor::{Factor, Symbolic};
-pub use interleaved::{Factors, Found, Interleaved};
+pub use interleaved::{Factors, Found, Interleaved, Reading};
 pub use lanczos::{Mode, smallest_modes};
 pub(crate) use lanes::with_lanes_for;
 pub use lanes::{Lanes, MOST_LANES};

@@ -12,6 +12,8 @@ pub(super) struct Panels {
     start: Vec<usize>,
     /// The rows of each supernode, ascending: its own columns, then those below.
     rows: Vec<usize>,
+    /// Number of entries before each supernode, and of all at the end.
+    entries: Vec<usize>,
     /// Where each supernode finds itself in faer's values.
     places: Vec<Place>,
     /// The supernode that begins at the border between leading and trailing unknowns.
@@ -44,7 +46,8 @@ impl Panels {
     pub fn new(supernodes: &SymbolicSupernodalCholesky<usize>, border: usize) -> Self {
         let n = supernodes.nrows();
         let ends = supernodes.supernode_begin().iter().skip(1).copied().chain([n]);
-        let mut panels = Panels { columns: vec![], start: vec![0], rows: vec![], places: vec![], border: 0 };
+        let mut panels =
+            Panels { columns: vec![], start: vec![0], rows: vec![], entries: vec![0], places: vec![], border: 0 };
         for (s, (&begin, end)) in supernodes.supernode_begin().iter().zip(ends).enumerate() {
             let pattern = supernodes.supernode(s).pattern();
             let (values, stride) = (supernodes.col_ptr_for_val()[s], end - begin + pattern.len());
@@ -59,6 +62,10 @@ impl Panels {
             }
         }
         panels.columns.push(n);
+        for s in 0..panels.count() {
+            let (width, height) = (panels.width(s), panels.rows(s).len());
+            panels.entries.push(panels.entries[s] + width * height - width * (width - 1) / 2);
+        }
         panels
     }
 
@@ -108,7 +115,12 @@ impl Panels {
 
     /// Number of entries of some supernodes.
     pub fn entries(&self, supernodes: Range<usize>) -> usize {
-        supernodes.map(|s| self.width(s) * self.rows(s).len() - self.width(s) * (self.width(s) - 1) / 2).sum()
+        self.entries[supernodes.end] - self.entries[supernodes.start]
+    }
+
+    /// Columns of some supernodes.
+    pub fn columns_of(&self, supernodes: Range<usize>) -> Range<usize> {
+        self.columns[supernodes.start]..self.columns[supernodes.end]
     }
 
     /// Visits the entries (row, column) of supernode `s` in the order of the forward copy, counted inside it.

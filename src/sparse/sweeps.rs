@@ -68,6 +68,24 @@ impl Factor {
         self.sweep_backward(0..self.panels.border, x);
     }
 
+    /// [`Factor::expand_lanes`] for one of the [`Factor::parts`], all parts before it done.
+    pub fn expand_part<const K: usize>(&self, part: &Part, x: &mut Lanes<K>) {
+        self.sweep_backward(part.supernodes.clone(), x);
+    }
+
+    /// The unknowns before the border cut in parts of `size` or little more, the last ones first: what is done with one
+    /// part right after another finds its numbers in the cache.
+    pub fn parts(&self, size: usize) -> impl Iterator<Item = Part> {
+        let mut end = self.panels.border;
+        std::iter::from_fn(move || {
+            let columns = |first: usize| self.panels.columns_of(first..end);
+            let first = (0..end).rev().find(|&first| first == 0 || columns(first).len() >= size)?;
+            let part = Part { supernodes: first..end, unknowns: columns(first) };
+            end = first;
+            Some(part)
+        })
+    }
+
     fn sweep_forward<const K: usize>(&self, supernodes: Range<usize>, x: &mut Lanes<K>) {
         assert_eq!(x.len(), self.len(), "one entry of x for each unknown");
         on_widest(Sweep { direction: Direction::Forward, panels: &self.panels, l: &self.forward, supernodes, x });
@@ -83,6 +101,13 @@ impl Factor {
 
 fn one_lane(x: &mut [f64]) -> &mut Lanes<1> {
     x.as_chunks_mut().0
+}
+
+/// Unknowns that a sweep back finds one after the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    supernodes: Range<usize>,
+    pub unknowns: Range<usize>,
 }
 
 enum Direction {
@@ -238,6 +263,27 @@ mod tests {
         factor.backward(&mut backward);
         assert!(distance(&forward, &x) < 1e-13);
         assert!(distance(&backward, &x) < 1e-13);
+    }
+
+    #[test]
+    fn parts_cover_all_unknowns_before_the_border_and_give_the_whole_sweep() {
+        let a = grid_matrix(40, 33, &[]);
+        let border = a.rows() - 5;
+        let factor = Symbolic::bordered(&a, border).factor(&a).expect("positive definite");
+        let mut whole = random(a.rows(), 3);
+        let before = whole.clone();
+        factor.expand(&mut whole);
+        for size in [1, 100, a.rows()] {
+            let mut x: Vec<[f64; 1]> = before.iter().map(|&x| [x]).collect();
+            let mut end = border;
+            for part in factor.parts(size) {
+                assert!(part.unknowns.end == end && (part.unknowns.start == 0 || part.unknowns.len() >= size));
+                end = part.unknowns.start;
+                factor.expand_part(&part, &mut x);
+                assert!(part.unknowns.clone().all(|i| x[i] == [whole[i]]), "{:?}", part.unknowns);
+            }
+            assert_eq!(end, 0);
+        }
     }
 
     /// To the last digit: a run among others gives what it gives alone.
