@@ -52,29 +52,36 @@ pub fn samples(shape: &RingShape, model: &Model) -> Vec<Sample> {
     shape.sectors.iter().flat_map(in_face).collect()
 }
 
-/// Least squares over the two sectors on either side of a ray, then the value at the ray and `radius`.
+/// Least squares over the two sectors on either side of a ray, then the values at the ray on the inner and outer face.
 ///
 /// The terms 1, 1/r^2, r^2, 1/r^4 (no more than there are places in a wall) hold Lame's solution and that of an
 /// ovalised ring, Michell's cos 2 theta; each times 1, x, x^2 in the angle x.
-pub fn at(shape: &RingShape, samples: &[Sample], ray: usize, radius: f64) -> Weights {
+pub fn at(shape: &RingShape, samples: &[Sample], ray: usize) -> [Weights; 2] {
     let rays = shape.rays.len();
     let near: Vec<&Sample> = samples.iter().filter(|s| (s.sector + rays + 2 - ray) % rays < 4).collect();
     let radial = radial_terms(shape, near[0].nodes.len());
-    let (inner, _) = shape.faces();
+    let (inner, outer) = shape.faces();
     let term = |k: usize, r: f64, angle: f64| {
         let x = ((angle + PI).rem_euclid(TAU) - PI) * rays as f64 / TAU;
         [1., (inner / r).powi(2), (r / inner).powi(2), (inner / r).powi(4)][k / 3] * [1., x, x * x][k % 3]
     };
     let fit =
         DMatrix::from_fn(near.len(), 3 * radial, |i, k| term(k, near[i].radius, near[i].angle - shape.rays[ray].angle));
-    let wanted = RowDVector::from_fn(3 * radial, |_, k| term(k, radius, 0.));
     let inverse = fit.pseudo_inverse(1e-10).expect("the tolerance is not negative");
+    [inner, outer].map(|radius| {
+        let wanted = RowDVector::from_fn(3 * radial, |_, k| term(k, radius, 0.));
+        of_nodes(&near, &(wanted * &inverse))
+    })
+}
+
+/// The weights of the nodes' displacements from those of the samples' stresses.
+fn of_nodes(samples: &[&Sample], weights: &RowDVector<f64>) -> Weights {
     let of_sample = |(s, weight): (&&Sample, &f64)| {
         let row = &s.row * *weight;
         s.nodes.iter().enumerate().map(move |(i, &n)| (n, [row[2 * i], row[2 * i + 1]])).collect::<Vec<_>>()
     };
     let mut sum: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
-    for (node, [x, y]) in near.iter().zip((wanted * inverse).iter()).flat_map(of_sample) {
+    for (node, [x, y]) in samples.iter().zip(weights.iter()).flat_map(of_sample) {
         let weight = sum.entry(node).or_default();
         *weight = [weight[0] + x, weight[1] + y];
     }

@@ -5,7 +5,7 @@ use crate::model::mesh::Mesh;
 use crate::model::resolve::Model;
 use crate::number::seconds;
 use crate::solve::system::{State, System};
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 /// Where turns, strains and jumps are larger than this [-], equations for small ones are off by about as much.
 const LARGE: f64 = 0.1;
@@ -31,7 +31,7 @@ pub struct Spans {
 impl Spans {
     pub fn new(model: &Model) -> Spans {
         let mesh = &model.mesh;
-        let mut once = BTreeSet::new();
+        let mut once = HashSet::new();
         let sides = model.faces().flat_map(|(cell, _)| {
             let nodes = &mesh.cells[cell].nodes;
             mesh.cells[cell].shape.sides().into_iter().map(|side| [nodes[side[0]], nodes[side[1]]])

@@ -135,13 +135,12 @@ impl Ring {
             let joints = elements.iter().flat_map(|e| e.joints.iter().filter_map(move |joint| of_element(e, joint)));
             let mut joints: Vec<(usize, f64)> = joints.collect();
             joints.sort_by_key(|&(point, _)| point);
-            let (inner, outer) = shape.faces();
             Ray {
                 angle: ray.angle,
                 outer_node,
                 area: (before.length + after.length) / 2.,
                 joints,
-                hoop: [inner, outer].map(|r| hoop::at(shape, &samples, i, r)),
+                hoop: hoop::at(shape, &samples, i),
             }
         };
         Ring { body, rays: shape.rays.iter().enumerate().map(ray).collect(), elements, rayleigh }
