@@ -54,7 +54,19 @@ impl Series {
     }
 }
 
-/// The name of a case may hold what XML does not allow in an attribute.
+/// The name of a case may hold what XML does not allow in an attribute, or would make a blank of.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+    let named = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+    named.replace('\t', "&#9;").replace('\n', "&#10;").replace('\r', "&#13;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// XML 1.0, 2.4 and 3.3.3.
+    #[test]
+    fn an_attribute_holds_any_name() {
+        assert_eq!(escaped("a&b<c\"d\te\nf\rg ü'>"), "a&amp;b&lt;c&quot;d&#9;e&#10;f&#13;g ü'>");
+    }
 }

@@ -109,7 +109,8 @@ fn form(base: &Base, point: Vec<Attribute>, cell: Vec<Attribute>) -> Result<Stri
     Ok(xml.replacen("<Piece", &counts, 1))
 }
 
-/// `xml` with its arrays, one after the other, at its end, and where they begin there instead of what they held.
+/// `xml` with its arrays at its end, and where they begin there instead of what they held. For meshio they have to
+/// stand in their order without gaps, and a line has to end after the last.
 fn with_appended<'a>(xml: &str, arrays: impl Iterator<Item = &'a Vec<u8>> + Clone) -> Vec<u8> {
     const INLINE: &str = " format=\"binary\"";
     const END: &str = "</DataArray>";
@@ -134,7 +135,7 @@ fn with_appended<'a>(xml: &str, arrays: impl Iterator<Item = &'a Vec<u8>> + Clon
 }
 
 /// In little time. fdeflate's code has short words for zeros and long ones for all else: numbers without zeros would
-/// grow by up to two fifths, and are better left alone.
+/// grow by a third or more, and are better left alone.
 fn quick(bytes: &[u8]) -> Vec<u8> {
     let stream = fdeflate::compress_to_vec(bytes);
     if stream.len() <= bytes.len() { block(bytes.len(), &stream) } else { zlib(bytes, Compression::none()) }

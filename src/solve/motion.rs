@@ -4,12 +4,14 @@ use super::energy::Forms;
 use super::law::Law;
 use super::system::{State, System, is_finite};
 use super::unsettled::{Place, Unsettled};
+use crate::sparse::interleaved::{U, V, W, X, Y};
 use crate::sparse::lanes::TILE;
 use crate::sparse::widest::{Kernel, on_widest};
 use crate::sparse::{Factors, Lanes};
 use std::ops::Range;
 
 /// The motion of one case.
+#[derive(Debug, PartialEq)]
 pub struct Motion {
     /// u, v, a of the unknowns
     vectors: [Vec<f64>; 3],
@@ -122,8 +124,8 @@ fn follow<const K: usize>(law: Law, u: &[f64; K], before: [[f64; K]; 3]) -> ([[f
         let motion = law.follow(u[k], [before[0][k], v_before, before[2][k]]);
         let (forms, sum) = (Forms::factors(motion[0], motion[1], v_before), law.onward(motion));
         (0..3).for_each(|m| motions[m][k] = motion[m]);
-        (0..3).for_each(|m| factors[m][k] = forms[m]);
-        (0..2).for_each(|m| factors[3 + m][k] = sum[m]);
+        [U, V, W].into_iter().zip(forms).for_each(|(row, x)| factors[row][k] = x);
+        [X, Y].into_iter().zip(sum).for_each(|(row, x)| factors[row][k] = x);
     }
     (motions, factors)
 }

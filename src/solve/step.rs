@@ -166,10 +166,9 @@ fn step_lanes<const K: usize>(
         })
         .collect();
     let states: Vec<&State> = old.iter().map(|old| &old.state).collect();
-    let mut room = std::mem::take(&mut steppers[0].room);
     let motions = Motions::new(law, &states, x.len(), systems[0].unknowns.with_jumps());
-    let (motions, found) = back(steppers[0].condensed.factor(), systems[0].interleaved(), motions, &mut x, &mut room);
-    steppers[0].room = room;
+    let Stepper { condensed, room, .. } = &mut *steppers[0];
+    let (motions, found) = go_back(condensed.factor(), systems[0].interleaved(), motions, &mut x, room, PART / K);
     let [strain, kinetic, drained] = found.forms;
     let onward = Lane::each(found.sum, old.len());
     let stepped = cases.zip(settled).zip(free_fields).zip(motions).zip(onward);
@@ -190,30 +189,31 @@ fn step_lanes<const K: usize>(
 }
 
 /// From the displacements of the border among x to all motions, and what the matrices make of them. Each part of the
-/// unknowns goes through all of it while its numbers are in the cache.
-fn back<const K: usize>(
+/// unknowns, about `size` of them, goes through all of it while its numbers are in the cache.
+fn go_back<const K: usize>(
     factor: &Factor,
     matrices: &Interleaved,
     mut motions: Motions<K>,
     x: &mut Lanes<K>,
     room: &mut Vec<f64>,
+    size: usize,
 ) -> (Vec<Motion>, Found<K>) {
     let factors = factors_in(room, x.len());
     let mut reading = Reading::new(matrices);
-    let mut next = |part: Range<usize>, x: &Lanes<K>| {
+    let mut follow = |part: Range<usize>, x: &Lanes<K>| {
         motions.follow(part.clone(), x, factors);
         reading.down_to(part.start, factors);
     };
-    let border = factor.border();
-    next(border..x.len(), x);
-    for part in factor.parts(PART / K) {
+    follow(factor.border()..x.len(), x);
+    for part in factor.parts(size) {
         factor.expand_part(&part, x);
-        next(part.unknowns, x);
+        follow(part.unknowns, x);
     }
     (motions.done(), reading.found(factors))
 }
 
-/// Unknowns times cases that go through it together: thirteen numbers each, which the processor's own cache should hold.
+/// Unknowns times cases that go through it together: thirteen numbers each, which the processor's own cache should
+/// hold.
 const PART: usize = 8192;
 
 /// For each unknown, whatever was there before, and a last one that stands for nothing.
@@ -251,4 +251,38 @@ fn right_hand_sides<const K: usize>(
 
 fn onward_of(system: &System, law: Law, State { q, v, a, .. }: &State) -> Onward {
     Onward { law, forces: Lane::alone(system.interleaved().sum(|i| law.onward([q[i], v[i], a[i]]))) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::case::Integrator;
+    use crate::solve::system::State;
+    use crate::sparse::testing::{grid_matrix, random};
+
+    /// The room keeps what a step of other cases left there, and what stands for nothing is multiplied by zeros.
+    #[test]
+    fn the_row_that_stands_for_nothing_is_zero_whatever_was_in_its_place() {
+        let mut room = vec![];
+        factors_in::<2>(&mut room, 3).fill([[f64::NAN; 2]; 5]);
+        assert_eq!(factors_in::<1>(&mut room, 3)[3], [[0.]; 5]);
+    }
+
+    #[test]
+    fn it_makes_no_difference_in_what_parts_a_step_goes_back() {
+        let a = grid_matrix(40, 33, &[]);
+        let n = a.rows();
+        let factor = Symbolic::bordered(&a, n - 5).factor(&a).expect("positive definite");
+        let matrices = Interleaved::new([&a, &a], [0.3, 0.02], None);
+        let [q, v, a] = [1, 2, 3].map(|seed| random(n, seed));
+        let state = State { time: 0., q, v, a, joints: vec![], free_field: vec![] };
+        let law = Law::new(Scheme::Dynamic(Integrator::default()), 0.1);
+        let gone_back = |size: usize| {
+            let mut x: Vec<[f64; 1]> = random(n, 4).into_iter().map(|x| [x]).collect();
+            let old = [&state];
+            go_back(&factor, &matrices, Motions::new(law, &old, n, n), &mut x, &mut vec![], size)
+        };
+        let whole = gone_back(n);
+        assert!([1, 100].into_iter().all(|size| gone_back(size) == whole));
+    }
 }

@@ -43,9 +43,15 @@ struct Rest {
     e: f64,
 }
 
-/// What the matrices are multiplied by in one unknown, for each of K cases: u, v, w of the forms u'A u, v'B v, w'C w,
-/// then x, y of the sum B x + C y.
+/// What the matrices are multiplied by in one unknown, for each of K cases: [`U`], [`V`], [`W`] of the forms u'A u,
+/// v'B v, w'C w, and [`X`], [`Y`] of the sum B x + C y. Bare numbers, so that one room serves any number of cases.
 pub type Factors<const K: usize> = [[f64; K]; 5];
+
+pub const U: usize = 0;
+pub const V: usize = 1;
+pub const W: usize = 2;
+pub const X: usize = 3;
+pub const Y: usize = 4;
 
 /// What a reading has found.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,8 +149,8 @@ fn first_of_blocks(pattern: &CsMat<f64>) -> Vec<usize> {
     first
 }
 
-/// Forms and sum in the making: the last unknowns' rows are read first, so that it makes no difference where the reading
-/// pauses.
+/// Forms and sum in the making: the last unknowns' rows are read first, so that it makes no difference where the
+/// reading pauses.
 pub struct Reading<'a, const K: usize> {
     matrices: &'a Interleaved,
     /// block rows that are read
@@ -162,7 +168,7 @@ impl<const K: usize> Reading<'_, K> {
     /// are known.
     ///
     /// # Panics
-    /// If there are not factors for each unknown and one more, whose numbers are not used but must be numbers.
+    /// If there are not factors for each unknown and one more. These should be finite: they are multiplied by zeros.
     pub fn down_to(&mut self, first: usize, factors: &[Factors<K>]) {
         assert_eq!(factors.len(), self.matrices.unknowns + 1, "factors for each unknown and one more");
         let rows = self.done..self.matrices.rows.partition_point(|&row| row as usize >= first);
@@ -171,8 +177,11 @@ impl<const K: usize> Reading<'_, K> {
     }
 
     /// When all rows are read.
+    ///
+    /// # Panics
+    /// If they are not.
     pub fn found(mut self, factors: &[Factors<K>]) -> Found<K> {
-        debug_assert_eq!(self.done, self.matrices.rows.len(), "all rows are read");
+        assert_eq!(self.done, self.matrices.rows.len(), "all rows are read");
         for entry in &self.matrices.rest {
             entry.add_to(&mut self.found, factors, self.matrices.alpha);
         }
@@ -204,20 +213,20 @@ impl<const K: usize> Kernel for Rows<'_, K> {
             for (&j, block) in columns.iter().zip(blocks) {
                 let there = pair(factors, j as usize);
                 let c = block.damping(*alpha, *beta);
-                u = plus(u, times(&block.a, there.map(|f| f[0])));
-                v = plus(v, scaled(block.b, there.map(|f| f[1])));
-                w = plus(w, times(&c, there.map(|f| f[2])));
-                sum = plus(sum, plus(scaled(block.b, there.map(|f| f[3])), times(&c, there.map(|f| f[4]))));
+                u = plus(u, times(&block.a, there.map(|f| f[U])));
+                v = plus(v, scaled(block.b, there.map(|f| f[V])));
+                w = plus(w, times(&c, there.map(|f| f[W])));
+                sum = plus(sum, plus(scaled(block.b, there.map(|f| f[X])), times(&c, there.map(|f| f[Y]))));
                 let c = transposed(c);
-                let below = plus(scaled(block.b, here.map(|f| f[3])), times(&c, here.map(|f| f[4])));
+                let below = plus(scaled(block.b, here.map(|f| f[X])), times(&c, here.map(|f| f[Y])));
                 add(&mut found.sum, j as usize, below);
             }
             add(&mut found.sum, i, sum);
-            for (m, right) in [u, v, w].into_iter().enumerate() {
-                let here = here.map(|f| f[m]);
+            for (form, (row, right)) in [(U, u), (V, v), (W, w)].into_iter().enumerate() {
+                let here = here.map(|f| f[row]);
                 for k in 0..K {
                     // Each block stands for two, the diagonal one is half of itself.
-                    found.forms[m][k] += 2. * (here[0][k] * right[0][k] + here[1][k] * right[1][k]);
+                    found.forms[form][k] += 2. * (here[0][k] * right[0][k] + here[1][k] * right[1][k]);
                 }
             }
         }
@@ -242,11 +251,11 @@ impl Rest {
         let (here, there) = (&factors[i], &factors[j]);
         let twice = if i == j { 1. } else { 2. };
         for k in 0..K {
-            found.forms[1][k] += twice * b * here[1][k] * there[1][k];
-            found.forms[2][k] += twice * c * here[2][k] * there[2][k];
-            found.sum[i][k] += b * there[3][k] + c * there[4][k];
+            found.forms[1][k] += twice * b * here[V][k] * there[V][k];
+            found.forms[2][k] += twice * c * here[W][k] * there[W][k];
+            found.sum[i][k] += b * there[X][k] + c * there[Y][k];
             if i != j {
-                found.sum[j][k] += b * here[3][k] + c * here[4][k];
+                found.sum[j][k] += b * here[X][k] + c * here[Y][k];
             }
         }
     }
@@ -370,9 +379,14 @@ mod tests {
         let twice = |x: f64| [x, 2. * x];
         let of_unknown = |i: usize| [u[i], v[i], w[i], x[i], y[i]].map(twice);
         let factors: Vec<Factors<2>> = (0..n).map(of_unknown).chain([[[0.; 2]; 5]]).collect();
-        // Row by row those of the last unknowns, with one cut inside a block, then all that are left.
+        // Row by row those of the last unknowns, with one cut inside a block, then all that are left; what is before
+        // them is not known yet.
         let mut reading = Reading::new(&interleaved);
-        [n - 1, n - 2, n - 8, n - 9, 0].into_iter().for_each(|first| reading.down_to(first, &factors));
+        for first in [n - 1, n - 2, n - 8, n - 9, 0] {
+            let mut known = factors.clone();
+            known[..first].fill([[f64::NAN; 2]; 5]);
+            reading.down_to(first, &known);
+        }
         let found = reading.found(&factors);
 
         let mut sum = multiply(&b, &x);

@@ -72,13 +72,14 @@ impl PartialEq for Lane {
     }
 }
 
-/// Up to K vectors side by side, the other lanes of no meaning.
+/// Up to K vectors side by side, the other lanes of no meaning and perhaps not finite.
 ///
 /// # Panics
-/// If there are more, or one is shorter than the first.
+/// If there are more, or one has another length than the first.
 pub fn side_by_side<const K: usize>(vectors: &[&Lane]) -> Vec<[f64; K]> {
     assert!(vectors.len() <= K, "a lane for each vector");
     let Some(first) = vectors.first() else { return vec![] };
+    assert!(vectors.iter().all(|lane| lane.len() == first.len()), "vectors of one length");
     let in_place = |(k, lane): (usize, &&Lane)| lane.is_with(first) && lane.width == K && lane.number == k;
     if vectors.iter().enumerate().all(in_place) {
         return first.all.as_chunks().0.to_vec();
@@ -109,6 +110,10 @@ mod tests {
         assert!(*b == Lane::alone(x.iter().map(|row| row[1]).collect()) && b != c);
         let mixed = side_by_side::<4>(&[c, &alone, a]);
         assert!((0..TILE + 3).all(|i| mixed[i] == [x[i][2], -(i as f64), x[i][0], 0.]));
+        // at their place, but of another company
+        let others = Lane::each(x.iter().map(|row| row.map(|x| -x)).collect::<Vec<[f64; 4]>>(), 4);
+        let met = side_by_side::<4>(&[a, &others[1], c]);
+        assert!((0..TILE + 3).all(|i| met[i][..3] == [x[i][0], -x[i][1], x[i][2]]));
         let narrow = side_by_side::<2>(&[a, b]);
         assert!((0..TILE + 3).all(|i| narrow[i] == [x[i][0], x[i][1]]));
         assert_eq!(side_by_side::<1>(&[&alone]).into_flattened(), *alone.all);

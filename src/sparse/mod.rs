@@ -45,4 +45,4 @@ pub fn without_zeros(matrix: &CsMat<f64>) -> CsMat<f64> {
 }
 
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;

@@ -55,7 +55,7 @@ impl Factor {
 
     /// Back from the solution x_c of the unknowns behind the border to that of all: x_i <- L_ii^-T (x_i - L_ci^T x_c).
     pub fn expand(&self, x: &mut [f64]) {
-        self.expand_lanes(one_lane(x));
+        self.sweep_backward(0..self.panels.border, one_lane(x));
     }
 
     /// [`Factor::condense`] for several vectors, reading L once.
@@ -63,12 +63,8 @@ impl Factor {
         self.sweep_forward(0..self.panels.border, x);
     }
 
-    /// [`Factor::expand`] for several vectors, reading L once.
-    pub fn expand_lanes<const K: usize>(&self, x: &mut Lanes<K>) {
-        self.sweep_backward(0..self.panels.border, x);
-    }
-
-    /// [`Factor::expand_lanes`] for one of the [`Factor::parts`], all parts before it done.
+    /// [`Factor::expand`] for several vectors in one of the [`Factor::parts`], all parts before it done, reading its L
+    /// once.
     pub fn expand_part<const K: usize>(&self, part: &Part, x: &mut Lanes<K>) {
         self.sweep_backward(part.supernodes.clone(), x);
     }
@@ -115,7 +111,7 @@ enum Direction {
     Backward,
 }
 
-/// Over some first supernodes.
+/// Over some supernodes.
 struct Sweep<'a, const K: usize> {
     direction: Direction,
     panels: &'a Panels,
@@ -270,6 +266,7 @@ mod tests {
         let a = grid_matrix(40, 33, &[]);
         let border = a.rows() - 5;
         let factor = Symbolic::bordered(&a, border).factor(&a).expect("positive definite");
+        assert_eq!(factor.border(), border);
         let mut whole = random(a.rows(), 3);
         let before = whole.clone();
         factor.expand(&mut whole);
@@ -295,7 +292,7 @@ mod tests {
         let vectors = [1, 2, 3, 4].map(|seed| random(a.rows(), seed));
         let mut lanes: Vec<[f64; 4]> = (0..a.rows()).map(|i| std::array::from_fn(|k| vectors[k][i])).collect();
         factor.condense_lanes(&mut lanes);
-        factor.expand_lanes(&mut lanes);
+        factor.parts(300).for_each(|part| factor.expand_part(&part, &mut lanes));
         for (k, mut alone) in vectors.into_iter().enumerate() {
             factor.condense(&mut alone);
             factor.expand(&mut alone);

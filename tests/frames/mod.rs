@@ -23,15 +23,19 @@ fn inline(file: &[u8]) -> Option<String> {
     let begin = file.windows(2).position(|at| at == b"\n_")?;
     let (xml, appended) = (std::str::from_utf8(&file[..begin]).ok()?, &file[begin + 2..]);
     let (arrays, end) = xml.rsplit_once("</DataArray>")?;
-    let mut text = String::new();
+    let (mut text, mut expected) = (String::new(), 0);
     for array in arrays.split("</DataArray>") {
         let (before, offset) = array.split_once(" format=\"appended\" offset=\"")?;
         let (offset, _) = offset.split_once('"')?;
         // one block: [1, size, size, compressed size]
         let (header, stream) = appended.get(offset.parse().ok()?..)?.split_at_checked(32)?;
-        let size = u64::from_ne_bytes(header[24..].try_into().ok()?);
-        let [header, stream] = [header, stream.get(..size as usize)?].map(|part| BASE64_STANDARD.encode(part));
+        let size = u64::from_ne_bytes(header[24..].try_into().ok()?) as usize;
+        // meshio wants them one right after the other
+        (offset == expected.to_string()).then_some(())?;
+        expected += header.len() + size;
+        let [header, stream] = [header, stream.get(..size)?].map(|part| BASE64_STANDARD.encode(part));
         text += &format!("{before} format=\"binary\">{header}{stream}</DataArray>");
     }
+    (&appended[expected..] == b"\n</AppendedData></VTKFile>").then_some(())?;
     Some(text + end.strip_suffix("<AppendedData encoding=\"raw\">")? + "</VTKFile>")
 }
