@@ -11,19 +11,21 @@ pub mod ordering;
 pub mod orders;
 mod panels;
 pub mod pivots;
+pub mod reading;
 pub mod sweeps;
 pub mod symmetric;
 pub mod vector;
 pub(crate) mod widest;
 
 pub use factor::{Factor, Symbolic};
-pub use interleaved::{Factors, Found, Interleaved, Reading};
+pub use interleaved::Interleaved;
 pub use lanczos::{Mode, smallest_modes};
 pub(crate) use lanes::with_lanes_for;
 pub use lanes::{Lanes, MOST_LANES};
 pub use ordering::{Graph, elimination_order};
 pub use orders::Orders;
 pub use pivots::{NotPositiveDefinite, UnreliablePivot};
+pub use reading::{Factors, Found, Reading};
 pub use symmetric::Symmetric;
 
 use sprs::{CsMat, TriMat};
