@@ -286,7 +286,7 @@ fn compare(integration: &str, alpha: f64, delta: f64) -> (f64, [usize; 2]) {
             most = [0, 1].map(|i| most[i].max(counts[i]));
         }
         for x in [&state.q, &state.v, &state.a] {
-            let differences = system.unknowns.differences(x);
+            let differences = system.unknowns.sides.differences(x);
             let apart = differences.iter().zip(system.jumps(x)).map(|(d, j)| (d - j).abs());
             // a jump has all its digits, the difference of two displacements those that are left of theirs
             let apart = apart.fold(0., f64::max);

@@ -118,7 +118,7 @@ proptest! {
                 let exact = (!held[pair.ground][axis] || !held[pair.body][axis])
                     .then_some(u[pair.ground][axis] - u[pair.body][axis]);
                 prop_assert_eq!(jump, exact);
-                let of_sides = |place| unknowns.sides_of(place).map(|(i, sign)| sign * q[i]).sum::<f64>();
+                let of_sides = |place| unknowns.sides.of(place).map(|(i, sign)| sign * q[i]).sum::<f64>();
                 prop_assert_eq!(jumps[axis].map(of_sides), exact);
             }
         }

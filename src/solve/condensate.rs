@@ -1,6 +1,7 @@
 //! What bodies and ground do where they meet: T, the Schur complement of the displacements of interface nodes, inverted
 //! once. Without joints ground and bodies know nothing of each other there, and T falls apart into blocks.
 
+use super::sides::Sides;
 use super::unknowns::Unknowns;
 use crate::sparse::vector::add;
 use crate::sparse::{Factor, Symmetric};
@@ -10,8 +11,8 @@ use faer::{Mat, Par};
 
 pub struct Condensate {
     blocks: Vec<Block>,
-    /// (place at the border, sign) of the displacements whose sum each jump is
-    sides: Vec<Vec<(usize, f64)>>,
+    /// places at the border
+    sides: Sides,
     /// S = (N T^-1 N')^-1, the forces at the jumps that make jumps [N/m]
     pub schur: Mat<f64>,
     packed_schur: Symmetric,
@@ -58,16 +59,15 @@ impl Condensate {
             let matrix = refined.then(|| Symmetric::new(&(&l * l.transpose())));
             blocks.push(Block { inverse: Symmetric::new(&of_block), matrix, places });
         }
-        let jumps = unknowns.with_jumps() - unknowns.count;
-        let at_border = |(unknown, sign): (usize, f64)| (unknown - unknowns.border, sign);
-        let sides: Vec<Vec<_>> = (0..jumps).map(|j| unknowns.sides_of(j).map(at_border).collect()).collect();
-        let between = |a: &[(usize, f64)], b: &[(usize, f64)]| -> f64 {
-            a.iter()
-                .flat_map(|&(i, s)| b.iter().map(move |&(j, t)| (i, j, s * t)))
+        let sides = unknowns.sides.from(unknowns.border);
+        let between = |a: usize, b: usize| -> f64 {
+            sides
+                .of(a)
+                .flat_map(|(i, s)| sides.of(b).map(move |(j, t)| (i, j, s * t)))
                 .map(|(i, j, s)| s * inverse[(i, j)])
                 .sum()
         };
-        let flexibility = Mat::from_fn(jumps, jumps, |a, b| between(&sides[a], &sides[b]));
+        let flexibility = Mat::from_fn(sides.count(), sides.count(), between);
         let schur = flexibility.partial_piv_lu().inverse();
         Condensate { blocks, sides, packed_schur: Symmetric::new(&schur), norm: schur.norm_l2(), schur }
     }
@@ -84,7 +84,7 @@ impl Condensate {
 
     /// N c: the jumps of displacements of the border.
     pub fn jumps(&self, c: &[f64]) -> Vec<f64> {
-        self.sides.iter().map(|sides| sides.iter().map(|&(i, sign)| sign * c[i]).sum()).collect()
+        self.sides.differences(c)
     }
 
     /// S j: forces at the jumps [N].
@@ -95,9 +95,7 @@ impl Condensate {
     /// b - N' forces: forces at the border [N] with those that pull the sides of the jumps together.
     pub fn pulled(&self, b: &[f64], forces: &[f64]) -> Vec<f64> {
         let mut pulled = b.to_vec();
-        for (sides, force) in self.sides.iter().zip(forces) {
-            sides.iter().for_each(|&(i, sign)| pulled[i] -= sign * force);
-        }
+        self.sides.add(&mut pulled, -1., forces);
         pulled
     }
 }

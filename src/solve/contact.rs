@@ -6,7 +6,7 @@
 //! changed their status cost more than that.
 
 use super::condensate::Condensate;
-use super::interface::JointPoint;
+use super::interface::{Interface, JointPoint};
 use super::inverse::Inverse;
 use super::joints::{Branches, Joints};
 use super::tresca::FixedPoint;
@@ -160,9 +160,7 @@ impl Contact {
     fn start(&self, problem: &Problem, jumps: &[f64], branches: Branches) -> Iterate {
         let Problem { joints, free, .. } = problem;
         let tractions = joints.on_lines(&branches, jumps);
-        let points = joints.interface.points.iter().zip(&tractions);
-        let beyond = points.map(|(p, traction)| traction - self.reference(&p.law) * joints.interface.local(p, jumps));
-        let mut missed = joints.interface.forces(beyond);
+        let mut missed = self.forces_beyond(joints.interface, &tractions, jumps);
         if jumps != *free {
             let from_free: Vec<f64> = jumps.iter().zip(*free).map(|(j, free)| j - free).collect();
             add(&mut missed, 1., &self.condensate.forces(&from_free));
@@ -198,10 +196,18 @@ impl Contact {
 
     /// The displacements of the border that the joints' forces make [m].
     fn border(&self, Problem { joints, b, .. }: &Problem, Branches { at, responses }: &Branches) -> Vec<f64> {
-        let interface = joints.interface;
-        let points = interface.points.iter().zip(responses);
-        let beyond = points.map(|(p, r)| r.traction - self.reference(&p.law) * interface.local(p, at));
-        self.condensate.displacements(&self.condensate.pulled(b, &interface.forces(beyond)))
+        let tractions: Vec<Vector2<f64>> = responses.iter().map(|r| r.traction).collect();
+        let forces = self.forces_beyond(joints.interface, &tractions, at);
+        self.condensate.displacements(&self.condensate.pulled(b, &forces))
+    }
+
+    /// r - D_0 j [N] of the joints' tractions.
+    fn forces_beyond(&self, interface: &Interface, tractions: &[Vector2<f64>], jumps: &[f64]) -> Vec<f64> {
+        if self.stiffest == 0. {
+            return interface.forces(tractions.iter().copied());
+        }
+        let points = interface.points.iter().zip(tractions);
+        interface.forces(points.map(|(p, traction)| traction - self.reference(&p.law) * interface.local(p, jumps)))
     }
 
     /// How far the jumps are from those of the displacements that the joints' forces make, as the force that would

@@ -8,6 +8,7 @@ use crate::model::split::{Joint, Pair};
 use crate::physics::joint::{JointLaw, Response, Status};
 use nalgebra::{Matrix2, Vector2};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Points on [-1, 1] and weights for a joint line of 2 or 3 nodes: Lobatto at the nodes (Simpson's rule for 3).
 ///
@@ -35,8 +36,8 @@ pub struct JointPoint {
     pub area: f64,
     /// where it lies [m]
     pub at: [f64; 2],
-    /// (place in the vector of jumps, column of R N) of every jump component that it sees
-    seen: Vec<(usize, Vector2<f64>)>,
+    /// which of [`Interface::seen`] it sees
+    seen: Range<usize>,
 }
 
 impl JointPoint {
@@ -68,6 +69,8 @@ impl From<&Response> for JointState {
 pub struct Interface {
     pub count: usize,
     pub points: Vec<JointPoint>,
+    /// (place in the vector of jumps, column of R N) of every jump component that a point sees, point by point
+    seen: Vec<(usize, Vector2<f64>)>,
 }
 
 impl Interface {
@@ -91,8 +94,18 @@ impl Interface {
             })
             .collect();
         let count = places.iter().flatten().flatten().count();
-        let seeing = |point: JointPoint| JointPoint { seen: seen(&point, places), ..point };
-        Interface { count, points: united(with_common_normals(points)).into_iter().map(seeing).collect() }
+        let mut points = united(with_common_normals(points));
+        let mut seen = Vec::new();
+        for point in &mut points {
+            let first = seen.len();
+            seen.extend(seen_by(point, places));
+            point.seen = first..seen.len();
+        }
+        Interface { count, points, seen }
+    }
+
+    fn seen_by(&self, point: &JointPoint) -> &[(usize, Vector2<f64>)] {
+        &self.seen[point.seen.clone()]
     }
 
     /// Integration points of all joint elements, each counted by itself.
@@ -102,7 +115,7 @@ impl Interface {
 
     /// R N j: (tangential, normal) jump at a point [as j].
     pub fn local(&self, point: &JointPoint, j: &[f64]) -> Vector2<f64> {
-        point.seen.iter().map(|&(place, column)| column * j[place]).sum()
+        self.seen_by(point).iter().map(|&(place, column)| column * j[place]).sum()
     }
 
     /// r(j) [N] of the points' tractions.
@@ -115,22 +128,27 @@ impl Interface {
         let mut r = vec![0.; self.count];
         for (number, traction) in tractions {
             let point = &self.points[number];
-            point.seen.iter().for_each(|(place, column)| r[*place] += column.dot(&traction) * point.area);
+            self.seen_by(point).iter().for_each(|(place, column)| r[*place] += column.dot(&traction) * point.area);
         }
         r
     }
 
     /// Calls `add(row, column, value)` for a point's part of dr/dj = sum area N' R' D R N [N/m].
     pub fn tangent(&self, point: &JointPoint, d: &Matrix2<f64>, mut add: impl FnMut(usize, usize, f64)) {
-        for &(j, of_j) in &point.seen {
+        for &(j, of_j) in self.seen_by(point) {
             let traction = d * of_j * point.area;
-            point.seen.iter().for_each(|(i, of_i)| add(*i, j, of_i.dot(&traction)));
+            self.seen_by(point).iter().for_each(|(i, of_i)| add(*i, j, of_i.dot(&traction)));
         }
+    }
+
+    /// (place, R N times something in local axes) of every jump component that a point sees.
+    pub fn pulls(&self, point: &JointPoint, local: Vector2<f64>) -> Vec<(usize, f64)> {
+        self.seen_by(point).iter().map(|(place, column)| (*place, column.dot(&local))).collect()
     }
 
     /// Where in the vector of jumps a point finds its own.
     pub fn places<'a>(&'a self, point: &'a JointPoint) -> impl Iterator<Item = usize> + 'a {
-        point.seen.iter().map(|&(place, _)| place)
+        self.seen_by(point).iter().map(|&(place, _)| place)
     }
 
     /// A point that sees jump component `place`, if any does.
@@ -140,7 +158,7 @@ impl Interface {
 }
 
 /// What a point sees of the jumps; `places` of each pair and axis.
-fn seen(point: &JointPoint, places: &[[Option<usize>; 2]]) -> Vec<(usize, Vector2<f64>)> {
+fn seen_by(point: &JointPoint, places: &[[Option<usize>; 2]]) -> Vec<(usize, Vector2<f64>)> {
     let rotation = point.rotation();
     let of_pair = |&(pair, n): &(usize, f64)| {
         (0..2).filter_map(move |axis| Some((places[pair][axis]?, rotation.column(axis) * n)))
@@ -214,7 +232,7 @@ fn joint_point(number: usize, joint: &Joint, law: JointLaw, at: &[[f64; 2]], r: 
         normal: [tangent[1] / det, -tangent[0] / det],
         area: det * weight,
         at: [0, 1].map(|i| sum(&|a| functions[a].0 * at[a][i])),
-        seen: vec![],
+        seen: 0..0,
     }
 }
 

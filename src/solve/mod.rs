@@ -14,6 +14,7 @@ pub mod march;
 pub mod modes;
 mod motion;
 pub mod newmark;
+pub mod sides;
 pub mod start;
 pub mod step;
 pub mod system;

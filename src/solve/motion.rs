@@ -32,8 +32,8 @@ impl Motion {
             return Err(Unsettled::Overflow(Place::Node(system.unknowns.node_of(unknown))));
         }
         q.extend(jumps);
-        v.extend(system.unknowns.differences(&v));
-        a.extend(system.unknowns.differences(&a));
+        v.extend(system.unknowns.sides.differences(&v));
+        a.extend(system.unknowns.sides.differences(&a));
         Ok([q, v, a])
     }
 }

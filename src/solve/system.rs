@@ -214,8 +214,8 @@ impl System {
         let mut closed = CsMat::clone(&self.stiffness);
         for point in &self.interface.points {
             self.interface.tangent(point, &point.law.closed_no_stiffer_than(stiffest), |i, j, value| {
-                for (row, sign_i) in self.unknowns.sides_of(i) {
-                    for (column, sign_j) in self.unknowns.sides_of(j) {
+                for (row, sign_i) in self.unknowns.sides.of(i) {
+                    for (column, sign_j) in self.unknowns.sides.of(j) {
                         let entry = closed.get_mut(row, column).expect("the pattern holds every joint element");
                         *entry += sign_i * sign_j * value;
                     }
@@ -233,7 +233,7 @@ impl System {
         for point in &self.interface.points {
             self.interface.tangent(point, &Matrix2::identity(), |i, j, value| {
                 if i == j {
-                    of_unit_springs += self.unknowns.sides_of(i).count() as f64 * value;
+                    of_unit_springs += self.unknowns.sides.of(i).count() as f64 * value;
                 }
             });
         }

@@ -4,6 +4,7 @@
 //! jump = u(ground) - u(body) follows from the displacements, but where stiff joints make it a small difference of
 //! large ones, its digits are lost there: so a state carries it beside them.
 
+use super::sides::Sides;
 use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
 use crate::sparse::{Graph, Orders};
@@ -20,8 +21,8 @@ pub struct Unknowns {
     numbers: Vec<[Option<usize>; 2]>,
     /// for each pair and axis its place in the vector of jumps; none where supports hold both nodes
     pub jumps: Vec<[Option<usize>; 2]>,
-    /// the unknowns of ground and body that each jump lies between; none where a support holds the node
-    sides: Vec<[Option<usize>; 2]>,
+    /// the unknowns that each jump lies between
+    pub sides: Sides,
     /// the node whose motion an unknown is: for messages
     nodes: Vec<usize>,
 }
@@ -52,12 +53,12 @@ impl Unknowns {
             })
         };
         let jumps = both_axes(pairs, jump);
-        Ok(Unknowns { count: nodes.len(), border, numbers, jumps, sides, nodes })
+        Ok(Unknowns { count: nodes.len(), border, numbers, jumps, sides: Sides::new(sides), nodes })
     }
 
     /// Length of a state's vectors: the unknowns, then the jumps.
     pub fn with_jumps(&self) -> usize {
-        self.count + self.sides.len()
+        self.count + self.sides.count()
     }
 
     /// The unknown that moves this node along this axis; none where a support holds it.
@@ -83,7 +84,7 @@ impl Unknowns {
                 unknowns[axis].iter().for_each(|&i| q[i] = u[axis]);
             }
         }
-        let jumps = self.differences(&q);
+        let jumps = self.sides.differences(&q);
         q.extend(jumps);
         q
     }
@@ -105,26 +106,8 @@ impl Unknowns {
     pub fn vector(&self, of_unknown: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut x = Vec::with_capacity(self.with_jumps());
         x.extend((0..self.count).map(of_unknown));
-        x.extend(self.differences(&x));
+        x.extend(self.sides.differences(&x));
         x
-    }
-
-    /// Ground minus body at every jump.
-    pub fn differences(&self, q: &[f64]) -> Vec<f64> {
-        let [ground, body] = [0, 1].map(|side| move |sides: &[Option<usize>; 2]| sides[side].map_or(0., |i| q[i]));
-        self.sides.iter().map(|sides| ground(sides) - body(sides)).collect()
-    }
-
-    /// f <- f + factor times what forces [N] that pull at the jumps are on ground and bodies.
-    pub fn add_at_jumps(&self, f: &mut [f64], factor: f64, forces: &[f64]) {
-        for (place, force) in forces.iter().enumerate() {
-            self.sides_of(place).for_each(|(i, sign)| f[i] += sign * factor * force);
-        }
-    }
-
-    /// (unknown, sign) of the displacements whose sum a jump is.
-    pub fn sides_of(&self, jump: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
-        self.sides[jump].into_iter().zip([1., -1.]).filter_map(|(unknown, sign)| Some((unknown?, sign)))
     }
 
     /// The unknowns that move a node along an axis in which `held` does not let it move.
