@@ -141,7 +141,7 @@ impl Interface {
         }
     }
 
-    /// (place, R N times something in local axes) of every jump component that a point sees.
+    /// (place, entry of N'R' times something in local axes) of every jump component that a point sees.
     pub fn pulls(&self, point: &JointPoint, local: Vector2<f64>) -> Vec<(usize, f64)> {
         self.seen_by(point).iter().map(|(place, column)| (*place, column.dot(&local))).collect()
     }
