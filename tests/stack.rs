@@ -56,7 +56,7 @@ fn imbalance(model: &Model, system: &System, q: &[f64], joints: &[JointState]) -
     let f: Vec<f64> = f.iter().map(|f| f * model.loads[0].pulse.at(0.)).collect();
     let mut left = multiply(&system.stiffness, system.displacements(q));
     let forces = system.interface.forces(joints.iter().map(|joint| joint.traction));
-    system.unknowns.sides.add(&mut left, 1., &forces);
+    system.unknowns.sides.add_forces(&mut left, 1., &forces);
     left.iter_mut().zip(&f).for_each(|(left, f)| *left -= f);
     norm(&left) / norm(&f)
 }

@@ -1,7 +1,7 @@
 //! What bodies and ground do where they meet: T, the Schur complement of the displacements of interface nodes, inverted
 //! once. Without joints ground and bodies know nothing of each other there, and T falls apart into blocks.
 
-use super::sides::Sides;
+use super::jump_sides::JumpSides;
 use super::unknowns::Unknowns;
 use crate::sparse::vector::add;
 use crate::sparse::{Factor, Symmetric};
@@ -11,8 +11,8 @@ use faer::{Mat, Par};
 
 pub struct Condensate {
     blocks: Vec<Block>,
-    /// places at the border
-    sides: Sides,
+    /// N, of displacements at the border
+    sides: JumpSides,
     /// S = (N T^-1 N')^-1, the forces at the jumps that make jumps [N/m]
     pub schur: Mat<f64>,
     packed_schur: Symmetric,
@@ -59,7 +59,7 @@ impl Condensate {
             let matrix = refined.then(|| Symmetric::new(&(&l * l.transpose())));
             blocks.push(Block { inverse: Symmetric::new(&of_block), matrix, places });
         }
-        let sides = unknowns.sides.from(unknowns.border);
+        let sides = unknowns.sides.behind(unknowns.border);
         let between = |a: usize, b: usize| -> f64 {
             sides
                 .of(a)
@@ -95,7 +95,7 @@ impl Condensate {
     /// b - N' forces: forces at the border [N] with those that pull the sides of the jumps together.
     pub fn pulled(&self, b: &[f64], forces: &[f64]) -> Vec<f64> {
         let mut pulled = b.to_vec();
-        self.sides.add(&mut pulled, -1., forces);
+        self.sides.add_forces(&mut pulled, -1., forces);
         pulled
     }
 }

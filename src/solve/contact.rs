@@ -283,7 +283,7 @@ mod tests {
     use crate::model::mesh::{Mesh, Shape};
     use crate::model::split::{Joint, Pair};
     use crate::physics::joint::Friction;
-    use crate::solve::interface::{Interface, JointState};
+    use crate::solve::interface::JointState;
     use crate::solve::unknowns::Unknowns;
     use crate::sparse::{Orders, Symbolic};
     use sprs::TriMat;

@@ -9,11 +9,11 @@ use faer::linalg::solvers::{DenseSolveCore, PartialPivLu, Solve};
 use faer::{Accum, ColMut, Mat, Par};
 use nalgebra::{Matrix2, Vector2};
 
-/// A change of more dyads than this share of the unknowns corrects the inverse: a solve then costs little more than the
-/// product.
+/// A change of no more dyads than unknowns over this is left to correct each solution, which then costs little more
+/// than the product; one of more corrects the inverse.
 const MANY: usize = 16;
 
-/// One of more than so many times that makes a new inverse. Where all points begin to slip and nothing else holds a
+/// One of more than this times as many makes a new inverse. Where all points begin to slip and nothing else holds a
 /// body, what is left of the old one has no digits.
 const TOO_MANY: usize = 4;
 
@@ -131,20 +131,20 @@ impl Dyad {
 fn dyads_between(interface: &Interface, from: &[Matrix2<f64>], to: &[Matrix2<f64>]) -> Vec<Dyad> {
     let mut dyads = Vec::new();
     for ((point, from), to) in interface.points.iter().zip(from).zip(to).filter(|((_, from), to)| from != to) {
-        dyads.extend(dyads_of(&(to - from)).into_iter().map(|(u, v)| Dyad::new(interface, point, u, v)));
+        dyads.extend(dyads_of(&(to - from)).map(|(u, v)| Dyad::new(interface, point, u, v)));
     }
     dyads
 }
 
 /// (u, v) with sum u v' = D: by the rows of D, or by its columns if one of them is zero. |u| = 1 in both, so that rows
 /// and columns give entries of G of one size: otherwise half of its digits are lost.
-fn dyads_of(d: &Matrix2<f64>) -> Vec<(Vector2<f64>, Vector2<f64>)> {
+fn dyads_of(d: &Matrix2<f64>) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + use<> {
     let axes = [Vector2::x(), Vector2::y()];
     let rows = axes.map(|axis| (axis, d.tr_mul(&axis)));
     let columns = axes.map(|axis| (d * axis, axis));
     let is_not_zero = |(u, v): &(Vector2<f64>, Vector2<f64>)| *u != Vector2::zeros() && *v != Vector2::zeros();
     let fewer = if columns.iter().all(is_not_zero) { rows } else { columns };
-    fewer.into_iter().filter(is_not_zero).map(|(u, v)| (u / u.norm(), v * u.norm())).collect()
+    fewer.into_iter().filter(is_not_zero).map(|(u, v)| (u / u.norm(), v * u.norm()))
 }
 
 /// What some joint points' tangents add to the matrix: U V', a column of both for each dyad. Its inverse is
@@ -243,6 +243,25 @@ mod tests {
             [&before, &changed, &before].map(|d| (inverse.solve(&matrix, &interface, d, &f), inverse.is_corrected()));
         assert!(!first.1 && other.1 && first.0 != other.0);
         assert_eq!(first, last);
+    }
+
+    #[test]
+    fn an_inverse_that_was_corrected_is_told_and_can_be_forgotten() {
+        let interface = interface(Integration::Lobatto);
+        let matrix = Mat::from_fn(interface.count, interface.count, |i, j| if i == j { 30. } else { 0. });
+        let f = vec![1.; interface.count];
+        let before = vec![Matrix2::new(20., 0., 0., 50.); interface.points.len()];
+        let mut changed = before.clone();
+        // two dyads each: too many to correct solutions, too few for a new inverse
+        changed[..6].fill(Matrix2::zeros());
+        let mut inverse = Inverse::default();
+        for d in [&before, &changed] {
+            inverse.solve(&matrix, &interface, d, &f);
+        }
+        assert!(inverse.change.is_none() && inverse.is_corrected());
+        inverse.forget();
+        inverse.solve(&matrix, &interface, &changed, &f);
+        assert!(!inverse.is_corrected());
     }
 
     /// Statuses that change here and there, once nearly everywhere: corrected solutions, corrected inverses, new ones.

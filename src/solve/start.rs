@@ -46,7 +46,7 @@ pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f6
     let mut unbalanced = multiply(&system.stiffness, system.displacements(&q));
     system.gravity.iter().for_each(|gravity| add(&mut unbalanced, -1., gravity));
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
-    system.unknowns.sides.add(&mut unbalanced, 1., &joint_forces);
+    system.unknowns.sides.add_forces(&mut unbalanced, 1., &joint_forces);
     // Elsewhere only the boundaries' springs, which were not there, are to be balanced; the rest is what Newton left.
     let mut reactions = system.boundary_springs(&q);
     for i in system.unknowns.freed_from(&held.unknowns) {
@@ -93,7 +93,7 @@ pub fn with_acceleration(
         add(&mut a, -1., &multiply(matrix, system.displacements(x)));
     }
     let joint_forces = system.interface.forces(state.joints.iter().map(|j| j.traction));
-    system.unknowns.sides.add(&mut a, -1., &joint_forces);
+    system.unknowns.sides.add_forces(&mut a, -1., &joint_forces);
     symbolic.solve_once(&system.mass, &mut a)?;
     Ok(State { a: system.unknowns.vector(|i| a[i]), free_field, ..state })
 }

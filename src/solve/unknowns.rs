@@ -4,7 +4,7 @@
 //! jump = u(ground) - u(body) follows from the displacements, but where stiff joints make it a small difference of
 //! large ones, its digits are lost there: so a state carries it beside them.
 
-use super::sides::Sides;
+use super::jump_sides::JumpSides;
 use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
 use crate::sparse::{Graph, Orders};
@@ -22,7 +22,7 @@ pub struct Unknowns {
     /// for each pair and axis its place in the vector of jumps; none where supports hold both nodes
     pub jumps: Vec<[Option<usize>; 2]>,
     /// the unknowns that each jump lies between
-    pub sides: Sides,
+    pub sides: JumpSides,
     /// the node whose motion an unknown is: for messages
     nodes: Vec<usize>,
 }
@@ -53,7 +53,7 @@ impl Unknowns {
             })
         };
         let jumps = both_axes(pairs, jump);
-        Ok(Unknowns { count: nodes.len(), border, numbers, jumps, sides: Sides::new(sides), nodes })
+        Ok(Unknowns { count: nodes.len(), border, numbers, jumps, sides: JumpSides::new(sides), nodes })
     }
 
     /// Length of a state's vectors: the unknowns, then the jumps.

@@ -85,7 +85,7 @@ impl Kernel for Product<'_> {
     }
 }
 
-/// Half and half, so that no sum waits for more than three others.
+/// Three additions wait for each other, where one number after the other would make it eight.
 #[inline(always)]
 fn sum(x: &[f64; COLUMNS]) -> f64 {
     ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
