@@ -81,6 +81,16 @@ impl Inverse {
     }
 }
 
+#[cfg(test)]
+impl Inverse {
+    /// As many corrections may leave it: of the right tangents, but not exact.
+    pub fn wear(&mut self, factor: f64) {
+        let kept = self.kept.as_mut().expect("it was solved with");
+        kept.inverse = faer::Scale(factor) * &kept.inverse;
+        kept.fresh = false;
+    }
+}
+
 impl Kept {
     fn new(schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>]) -> Kept {
         let mut matrix = schur.clone();
