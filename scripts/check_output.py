@@ -171,6 +171,8 @@ def check_frame(time, path, probes, histories):
 def check(folder):
     require(folder.is_dir(), f"there is no folder {folder}; make it with `coralpipe run`")
     frames = series_of(folder)
+    for name in ["summary.json", "histories.csv"]:
+        require((folder / name).exists(), f"{name} is missing, so the run has not ended; make it again with `coralpipe run`")
     summary = json.loads((folder / "summary.json").read_text())
     histories = Histories(folder / "histories.csv")
     probes = [p for p in summary["probes"] if p.get("node") is not None]

@@ -179,6 +179,21 @@ fn a_support_may_hold_one_side_of_an_interface() {
     }
 }
 
+/// Where gravity begins, every joint with a gap is open: Newton's first step lets the pipes fall for a million
+/// metres, the next ones bring them back, and nothing but round-off decides how far a pipe without friction has turned
+/// then. No point of a pipe slips by more than the pipe falls.
+#[test]
+fn pipes_without_friction_fall_through_a_gap_and_do_not_turn() {
+    let joints = ["left", "right"].map(|side| {
+        format!("interfaces.interface_{side}={{\"body\":\"pipe_{side}\",\"thickness\":\"1 cm\",\"friction\":0,\"gap\":1e-4}}")
+    });
+    let sets = ["gravity=9.81", "time.end=0.2 ms", &joints[0], &joints[1]];
+    let run = run_twin_pipes(&sets.iter().flat_map(|s| ["--set", s]).collect::<Vec<_>>());
+    let slip = run.number("/contact/max_slip");
+    println!("slip {slip:.3e} m");
+    assert!(slip > 1e-5 && slip < 1e-4, "{slip:e} m");
+}
+
 /// In statics almost every point slips at f = 0.05, and only few keep the pipes from turning: Newton ends at its
 /// tolerance whatever that is, and at the same displacements. 1e-9: a tolerance of 1e-8 on forces, times the share that
 /// slips.

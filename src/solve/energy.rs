@@ -136,8 +136,8 @@ impl Ledger {
     }
 }
 
-/// What the joints give in one step beyond what they stored and friction ate: -(r_n + r_n+1)'dj/2 - stored - friction
-/// [J].
+/// What the joints have stored and friction has eaten in one step beyond the work done on them: stored + friction -
+/// (r_n + r_n+1)'dj/2 [J].
 pub fn joint_gain(system: &System, old: &State, new: &State) -> f64 {
     let work = mean_dot(&joint_force(system, old), &joint_force(system, new), &growth_of_jumps(system, old, new));
     stored_in_joints(system, new) - stored_in_joints(system, old) + friction(system, old, new) - work

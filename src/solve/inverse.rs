@@ -2,6 +2,8 @@
 //!
 //! The inverse for one set is kept, dense; where few joints differ from it, Woodbury's formula corrects the solution,
 //! and where many do, the inverse itself. So a change of status costs by what changed, not by the number of joints.
+//! Except where joints alone hold a body: once they slip all round it, nothing keeps it from turning but a billionth of
+//! their stiffness, and what such a matrix is corrected to, or from, has no digits for that turn.
 
 use super::interface::{Interface, JointPoint};
 use crate::sparse::columns::add_columns;
@@ -17,8 +19,9 @@ const MANY: usize = 16;
 /// body, what is left of the old one has no digits.
 const TOO_MANY: usize = 4;
 
-#[derive(Default)]
 pub struct Inverse {
+    /// whether every set of tangents has an inverse of its own
+    exact: bool,
     /// the one that belongs to tangents of its own, perhaps after corrections
     kept: Option<Kept>,
     /// how the last tangents differ from those of the inverse
@@ -35,6 +38,10 @@ struct Kept {
 }
 
 impl Inverse {
+    pub fn new(exact: bool) -> Inverse {
+        Inverse { exact, kept: None, change: None }
+    }
+
     /// (S + sum area N' R' D R N)^-1 f, D per joint point. Zeros in f cost nothing.
     pub fn solve(&mut self, schur: &Mat<f64>, interface: &Interface, tangents: &[Matrix2<f64>], f: &[f64]) -> Vec<f64> {
         self.move_to(schur, interface, tangents);
@@ -62,7 +69,7 @@ impl Inverse {
         match self.kept.take() {
             Some(kept) if kept.tangents == tangents => (self.kept, self.change) = (Some(kept), None),
             Some(kept) if self.change.as_ref().is_some_and(|change| change.to == tangents) => self.kept = Some(kept),
-            Some(kept) => {
+            Some(kept) if !self.exact => {
                 let dyads = dyads_between(interface, &kept.tangents, tangents);
                 (self.kept, self.change) = match dyads.len() {
                     n if n <= many => {
@@ -76,7 +83,7 @@ impl Inverse {
                     _ => (Some(Kept::new(schur, interface, tangents)), None),
                 };
             }
-            None => (self.kept, self.change) = (Some(Kept::new(schur, interface, tangents)), None),
+            _ => (self.kept, self.change) = (Some(Kept::new(schur, interface, tangents)), None),
         }
     }
 }
@@ -226,13 +233,26 @@ mod tests {
         Interface::new(&mesh, &pairs, &joints, &vec![(law, integration); joints.len()], &jumps)
     }
 
+    #[test]
+    fn a_point_that_begins_to_slip_or_opens_from_slip_changes_the_matrix_by_one_dyad() {
+        let interface = interface(Integration::Lobatto);
+        let [open, sticks, slips] =
+            [[0.; 4], [20., 0., 0., 50.], [0., -15., 0., 50.]].map(|[a, b, c, d]| Matrix2::new(a, b, c, d));
+        let dyads = |from, to| {
+            let of_all = |d| vec![d; interface.points.len()];
+            dyads_between(&interface, &of_all(from), &of_all(to)).len() / interface.points.len()
+        };
+        assert_eq!([dyads(sticks, slips), dyads(slips, open), dyads(open, sticks)], [1, 1, 2]);
+        assert_eq!(dyads(slips, slips), 0);
+    }
+
     /// One dyad each: a body that nothing else holds can turn then, and G is singular but for round-off.
     #[test]
     fn points_that_all_begin_to_slip_make_a_new_inverse() {
         let interface = interface(Integration::Lobatto);
         let matrix = Mat::from_fn(interface.count, interface.count, |i, j| if i == j { 30. } else { 0. });
         let f = vec![1.; interface.count];
-        let mut inverse = Inverse::default();
+        let mut inverse = Inverse::new(false);
         let mut after = |d: Matrix2<f64>| {
             inverse.solve(&matrix, &interface, &vec![d; interface.points.len()], &f);
             inverse.is_corrected()
@@ -248,7 +268,7 @@ mod tests {
         let before = vec![Matrix2::new(20., 0., 0., 50.); interface.points.len()];
         let mut changed = before.clone();
         changed[7] = Matrix2::zeros();
-        let mut inverse = Inverse::default();
+        let mut inverse = Inverse::new(false);
         let [first, other, last] =
             [&before, &changed, &before].map(|d| (inverse.solve(&matrix, &interface, d, &f), inverse.is_corrected()));
         assert!(!first.1 && other.1 && first.0 != other.0);
@@ -264,7 +284,7 @@ mod tests {
         let mut changed = before.clone();
         // two dyads each: too many to correct solutions, too few for a new inverse
         changed[..6].fill(Matrix2::zeros());
-        let mut inverse = Inverse::default();
+        let mut inverse = Inverse::new(false);
         for d in [&before, &changed] {
             inverse.solve(&matrix, &interface, d, &f);
         }
@@ -272,6 +292,36 @@ mod tests {
         inverse.forget();
         inverse.solve(&matrix, &interface, &changed, &f);
         assert!(!inverse.is_corrected());
+    }
+
+    /// A body that springs hold together, and nothing else than joints holds in place, falls: all of them are open, then
+    /// a third of them close. The matrix goes from nearly singular to singular along the joints only, and there
+    /// corrections have no digits.
+    #[test]
+    fn a_body_that_hangs_on_joints_alone_needs_an_inverse_for_every_set_of_tangents() {
+        let interface = interface(Integration::Lobatto);
+        let n = interface.count;
+        // springs between neighbours, stiffer across the line than along it and inclined to both
+        let spring = [[30., 10.], [10., 60.]];
+        let mut schur = Mat::<f64>::zeros(n, n);
+        for p in 1..PAIRS {
+            for (a, b, sign) in [(p, p, 1.), (p - 1, p - 1, 1.), (p, p - 1, -1.), (p - 1, p, -1.)] {
+                (0..2).for_each(|i| (0..2).for_each(|j| schur[(2 * a + i, 2 * b + j)] += sign * spring[i][j]));
+            }
+        }
+        let [open, slips] = [50e-9, 50.].map(|normal| Matrix2::new(20e-9, 0., 0., normal));
+        let mut tangents = vec![open; interface.points.len()];
+        let f: Vec<f64> = (0..n).map(|i| (i % 2) as f64).collect();
+        let [mut exact, mut corrected] = [true, false].map(Inverse::new);
+        for inverse in [&mut exact, &mut corrected] {
+            inverse.solve(&schur, &interface, &tangents, &f);
+        }
+        tangents[..PAIRS / 3].fill(slips);
+        let [new, exact, corrected] =
+            [&mut Inverse::new(true), &mut exact, &mut corrected].map(|i| i.solve(&schur, &interface, &tangents, &f));
+        assert_eq!(exact, new);
+        let off = corrected.iter().zip(&new).map(|(c, n)| (c - n).abs() / n.abs()).fold(0., f64::max);
+        assert!(off > 1e-6, "corrections lose {off:e} only: they would do");
     }
 
     /// Statuses that change here and there, once nearly everywhere: corrected solutions, corrected inverses, new ones.
@@ -287,7 +337,7 @@ mod tests {
             let branches =
                 [[0.; 4], [20., 0., 0., 50.], [0., -15., 0., 50.]].map(|[a, b, c, d]| Matrix2::new(a, b, c, d) * scale);
             let mut tangents = vec![branches[1]; interface.points.len()];
-            let mut inverse = Inverse::default();
+            let mut inverse = Inverse::new(false);
             for round in 0..60 {
                 let changes = if round == 30 { 70 } else { round % 7 };
                 for k in 0..changes {
