@@ -10,6 +10,28 @@ pub fn seconds(time: f64) -> String {
     format!("{} s", short(time))
 }
 
+/// The number of twelve significant digits nearest to a value. The time of step k is the decimal number k dt, 0.03 where
+/// the product in binary is 0.030000000000000002: twelve digits keep apart any two of 10^9 steps, and round-off is in
+/// the sixteenth. A file has this number; the computation uses the product.
+pub fn nearest_decimal(value: f64) -> f64 {
+    // adding zero takes the sign off -0
+    format!("{value:.11e}").parse().unwrap_or(value) + 0.
+}
+
+/// [`nearest_decimal`] as a table has it, in its shortest form: without an exponent from 1e-9 to 1e15.
+pub fn decimal(value: f64) -> String {
+    let nearest = nearest_decimal(value);
+    match nearest.abs() {
+        size if size == 0. || (1e-9..1e15).contains(&size) => format!("{nearest}"),
+        _ => format!("{nearest:e}"),
+    }
+}
+
+/// An angle in degrees to 1e-9 degrees: 67.5, not 67.49999999999997, and 0, not 4e-15.
+pub fn degrees(radians: f64) -> f64 {
+    (1e9 * radians.to_degrees()).round() / 1e9 + 0.
+}
+
 /// So many digits at most.
 pub fn short_to(digits: usize, value: f64) -> String {
     let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
@@ -39,7 +61,7 @@ pub fn readable(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{fixed, seconds, short, short_to};
+    use super::{decimal, degrees, fixed, nearest_decimal, seconds, short, short_to};
 
     #[test]
     fn round_off_is_not_shown_and_nothing_else_is_lost() {
@@ -56,6 +78,30 @@ mod tests {
         let [twentynine_steps, late, early] = [29. * 1e-4, 3. * 0.1, 7. * 1e-7];
         assert_ne!([twentynine_steps, late, early], [0.0029, 0.3, 7e-7]);
         assert_eq!([twentynine_steps, late, early].map(seconds), ["0.0029 s", "0.3 s", "7e-7 s"]);
+    }
+
+    /// Each step's time as a person multiplies it, whatever its product in binary is. Steps of 1/3 ms have as many
+    /// digits as are kept, and every third of them is a whole millisecond.
+    #[test]
+    fn the_time_of_a_step_is_the_decimal_number_that_it_is() {
+        let times = |dt: f64, steps: &[f64]| steps.iter().map(|k| decimal(k * dt)).collect::<Vec<_>>();
+        assert_ne!(300. * 1e-4, 0.03);
+        assert_eq!(times(1e-4, &[0., 3., 300., 1200.]), ["0", "0.0003", "0.03", "0.12"]);
+        assert_eq!(times(1e-7, &[1., 3., 1e9]), ["0.0000001", "0.0000003", "100"]);
+        assert_eq!(times(1e-3 / 3., &[1., 2., 3.]), ["0.000333333333333", "0.000666666666667", "0.001"]);
+        assert_eq!(times(1., &[-0., 1e15, 1e-12]), ["0", "1e15", "1e-12"]);
+        let all = (0..100_000).map(|k| decimal(f64::from(k) * 1e-5));
+        all.enumerate().for_each(|(k, text)| assert_eq!(text, format!("{}", k as f64 / 1e5)));
+        // a reader gets the number that is nearest to the decimal
+        assert_eq!(decimal(0.1 + 0.2).parse::<f64>(), Ok(0.3));
+        assert_eq!(nearest_decimal(3. * 0.1), 0.3);
+    }
+
+    #[test]
+    fn an_angle_is_the_decimal_number_that_it_is() {
+        let of_turn = |part: f64| degrees(std::f64::consts::TAU * part);
+        assert_eq!([0., 3. / 16., 1. / 64., 61. / 64.].map(of_turn), [0., 67.5, 5.625, 343.125]);
+        assert_eq!(degrees(-1e-16).to_bits(), 0);
     }
 
     #[test]

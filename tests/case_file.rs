@@ -258,7 +258,7 @@ fn every_impossible_value_is_a_sentence_with_file_path_value_and_range() {
         ("geometry.mesh=x.msh", "geometry", "either \"script\""),
         ("geometry.parameters.width=wide", "geometry.parameters.width", "a number"),
         ("probes.1=A", "probes[1]", "a probe \"A\" already"),
-        ("probes.1=a,b", "probes[1]", "cannot head a column"),
+        ("probes.1=\"\"", "probes[1]", "a probe needs a name"),
         ("probes.1=5", "probes[1]", "the name of a physical point, or an object"),
         ("probes.1={\"name\":\"P\"}", "probes[1]", "the key \"at\" is missing"),
         ("materials=[]", "materials", "an object is expected"),

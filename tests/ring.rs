@@ -3,7 +3,7 @@
 use coralpipe::model::case::{Case, Integrator, Newmark};
 use coralpipe::model::mesh::{Cell, Group, Mesh, Shape};
 use coralpipe::model::resolve::Model;
-use coralpipe::model::ring::RingShape;
+use coralpipe::model::ring::{NoRing, RingShape};
 use coralpipe::physics::element::{self, Integral};
 use coralpipe::results::ring::{Section, rings};
 use coralpipe::results::sites::Sites;
@@ -338,6 +338,18 @@ fn opposite_cuts_balance_tractions_and_inertia_while_the_pipe_moves() {
 
 /// The far field sv = -100 kPa, sh = K sv on a box, and the pipe in it.
 fn in_plane(name: &str, polar: Polar, pipe: &str, ground: [f64; 2], interface: &str, bonded: bool) -> Vec<Section> {
+    let (prepared, state) = far_field(name, polar, pipe, ground, interface, bonded);
+    sections(&prepared, &state)
+}
+
+fn far_field(
+    name: &str,
+    polar: Polar,
+    pipe: &str,
+    ground: [f64; 2],
+    interface: &str,
+    bonded: bool,
+) -> (Prepared, State) {
     let [young, poisson] = ground;
     let side = 100e3 * poisson / (1. - poisson);
     let pressure = |name: &str, p: f64| format!(r#""{name}": {{ "pressure": {{ "law": "step", "peak": {p} }} }}"#);
@@ -352,7 +364,7 @@ fn in_plane(name: &str, polar: Polar, pipe: &str, ground: [f64; 2], interface: &
     let prepared = prepared(name, &json, &polar.mesh(), bonded);
     println!("{name}: {} unknowns", prepared.system.unknowns.count);
     let state = statics(&prepared);
-    sections(&prepared, &state)
+    (prepared, state)
 }
 
 /// Springline and crown: [hoop in, hoop out, N, M, p_r, u_r] against the reference; relative to the larger of the two
@@ -426,6 +438,43 @@ fn the_papers_pipe_has_the_exact_forces() {
     }
 }
 
+/// Which hoop stress to take at a wall's faces. At the bore stress grows as 1/r^2 to 1/r^4; rings.csv fits these terms,
+/// recovery at the nodes (superconvergent patches) extrapolates from inside by a polynomial of first degree: on a wall of
+/// four linear elements it misses three times as much. Exact: -1.1171 MPa at the springline, 0.3997 at the crown.
+#[test]
+fn at_the_bore_the_hoop_stress_of_a_section_is_nearer_to_the_exact_one_than_that_of_recovery() {
+    let polar = Polar {
+        shape: Shape::Quad4,
+        rays: 64,
+        radii: [0.4, 0.6],
+        layers: 4,
+        ground_layers: 48,
+        width: 24.,
+        uneven: 0.,
+    };
+    let (prepared, state) = far_field("paper_recovery", polar, STEEL, [519e6, 0.38], "", true);
+    let sections = sections(&prepared, &state);
+    let sites = Sites::new(&prepared.model);
+    let u = prepared.system.unknowns.at_nodes(&state.q);
+    let recovery = Recovery::new(&prepared.model, &sites);
+    let stress = recovery.nodal_stresses(&u, &recovery.stresses(&u));
+    let at = |place: [f64; 2]| {
+        let is_there = |&node: &usize| {
+            let [x, y] = prepared.model.mesh.points[node];
+            (x - place[0]).hypot(y - place[1]) < 1e-9
+        };
+        stress[sites.nodes.iter().position(is_there).unwrap()]
+    };
+    // sigma_theta is sigma_yy at the springline and sigma_xx at the crown
+    for (quarter, nodal, exact) in [(0, at([0.4, 0.])[1], PAPERS[0][0]), (1, at([0., 0.4])[0], PAPERS[1][0])] {
+        let section = sections[quarter * sections.len() / 4].hoop[0];
+        let [of_section, of_recovery] = [section, nodal].map(|value| (value - exact).abs() / PAPERS[0][0].abs());
+        println!("hoop at the bore: exact {exact:.4e}, section {section:.4e}, recovery {nodal:.4e}");
+        // the wall of Q4 is 2 % too stiff in bending, which both share
+        assert!(of_section < 0.03 && of_recovery > 2. * of_section, "{of_section} and {of_recovery}");
+    }
+}
+
 /// Pressure p in the bore of a ring bonded to ground of its own material: sigma_r = -p (a/r)^2, Q = 0 at every cut. The
 /// ground's hold on a bonded pipe is not told apart by elements; half of it to each side of a cut, whatever their
 /// lengths, would make Q = sigma_r (l_after - l_before) / 4, here 0.5 % of p a.
@@ -450,11 +499,74 @@ fn a_cut_between_sectors_of_unlike_length_shares_the_grounds_hold_by_them() {
 fn a_body_of_another_shape_is_no_ring() {
     let mesh = COARSE.mesh();
     let found = |name: &str| RingShape::find(&mesh, &mesh.group(name).unwrap().cells);
-    assert!(found("pipe").is_some_and(|ring| ring.rays.len() == 32 && ring.radii.len() == 3));
-    assert_eq!(found("ground"), None);
+    assert!(found("pipe").is_ok_and(|ring| ring.rays.len() == 32 && ring.radii.len() == 3));
+    assert!(matches!(found("ground"), Err(NoRing::NotRound("outer border", _))));
     let pipe = &mesh.group("pipe").unwrap().cells;
-    assert_eq!(RingShape::find(&mesh, &pipe[1..]), None);
-    assert_eq!(RingShape::find(&mesh, &[]), None);
+    assert!(matches!(RingShape::find(&mesh, &pipe[1..]), Err(NoRing::NotRound("bore", _))));
+    assert_eq!(RingShape::find(&mesh, &[]), Err(NoRing::Parts(0)));
+}
+
+/// Each shape's own reason, on one mesh of 32 rays and 3 rings of nodes that is bent or cut into it.
+#[test]
+fn a_body_that_is_no_ring_has_the_reason_that_holds() {
+    let straight = COARSE.mesh();
+    let pipe = straight.group("pipe").unwrap().cells.clone();
+    let bent = |of: &dyn Fn([f64; 2]) -> [f64; 2]| {
+        let mesh = Mesh { points: straight.points.iter().map(|&p| of(p)).collect(), ..straight.clone() };
+        RingShape::find(&mesh, &pipe).unwrap_err()
+    };
+    // the bore's nodes at 0.4 m, moved to the right by 1 cm
+    let NoRing::Eccentric(off) = bent(&|[x, y]| if x.hypot(y) < 0.41 { [x + 0.01, y] } else { [x, y] }) else {
+        panic!("an eccentric bore")
+    };
+    assert!((off - 0.01).abs() < 1e-9);
+    // a square of half-width r, with round bore and without: its corners are sqrt(2) times as far away as its sides
+    let square = |[x, y]: [f64; 2]| [x, y].map(|k| k * x.hypot(y) / x.abs().max(y.abs()));
+    let NoRing::NotRound("outer border", [least, most]) = bent(&square) else { panic!("a box") };
+    assert!((least - 0.6).abs() < 1e-9 && (most - 0.6 * 2f64.sqrt()).abs() < 1e-9);
+    let of_bore = |p: [f64; 2]| if p[0].hypot(p[1]) < 0.41 { square(p).map(|x| x / 2.) } else { p };
+    assert!(matches!(bent(&of_bore), NoRing::NotRound("bore", _)));
+    // an ellipse
+    assert!(matches!(bent(&|[x, y]| [x, 1.001 * y]), NoRing::NotRound("outer border", _)));
+    // one node between the faces off its ray; all of them turned; one off its radius
+    let one = straight.points.iter().position(|[x, y]| (x.hypot(*y) - 0.5).abs() < 1e-9).unwrap();
+    let place = straight.points[one];
+    let off_ray = |p: [f64; 2]| if p == place { [p[0], p[1] + 0.01] } else { p };
+    assert_eq!(bent(&off_ray), NoRing::Unstructured([place[0], place[1] + 0.01]));
+    let between =
+        |[x, y]: [f64; 2]| if (x.hypot(y) - 0.5).abs() < 1e-9 { [x - 0.02 * y, y + 0.02 * x] } else { [x, y] };
+    assert!(matches!(bent(&between), NoRing::Unstructured(_)));
+    let off_radius = |p: [f64; 2]| if p == place { p.map(|x| 1.02 * x) } else { p };
+    assert!(matches!(bent(&off_radius), NoRing::Unstructured(_)));
+    // half of it, two quarters apart, a notch in the bore, one in the outer face
+    let sectors = RingShape::find(&straight, &pipe).unwrap().sectors;
+    let cut = |keeps: &dyn Fn(usize, usize) -> bool| {
+        let cells =
+            sectors.iter().enumerate().filter(|(i, (_, sector))| keeps(*i, *sector)).map(|(_, (cell, _))| *cell);
+        RingShape::find(&straight, &cells.collect::<Vec<_>>()).unwrap_err()
+    };
+    assert_eq!(cut(&|_, sector| sector < 16), NoRing::Bores(0));
+    assert_eq!(cut(&|_, sector| sector < 8 || (16..24).contains(&sector)), NoRing::Parts(2));
+    let inner = |cell: usize| straight.centroid(&straight.cells[cell]).iter().fold(0f64, |r, x| r.hypot(*x)) < 0.5;
+    assert!(matches!(cut(&|i, sector| sector != 3 || !inner(sectors[i].0)), NoRing::NotRound("bore", _)));
+    let outer_hole = cut(&|i, sector| sector != 3 || inner(sectors[i].0));
+    assert!(matches!(outer_hole, NoRing::NotRound("outer border", _)), "{outer_hole:?}");
+    assert_eq!(NoRing::Bores(2).to_string(), "it has 2 bores");
+}
+
+/// Triangles that Gmsh lays at will into a round wall: the reason names where they leave the rays.
+#[test]
+fn unstructured_triangles_in_a_round_wall_are_no_ring_of_rays() {
+    let inputs = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs/walls_that_cannot_be_cut");
+    let found = |name: &str| {
+        let mesh = Mesh::read(&inputs.join(name)).unwrap();
+        RingShape::find(&mesh, &mesh.group("wall").unwrap().cells).unwrap_err()
+    };
+    let NoRing::Unstructured([x, y]) = found("unstructured_triangles.msh") else { panic!("triangles") };
+    assert!((0.8 - 1e-9..1. + 1e-9).contains(&x.hypot(y + 3.)), "({x}, {y}) m is not in the wall");
+    assert!(matches!(found("paved_quadrangles.msh"), NoRing::Unstructured(_)));
+    assert!(matches!(found("box.msh"), NoRing::NotRound("outer border", _)));
+    assert!(matches!(found("eccentric_bore.msh"), NoRing::Eccentric(d) if (d - 0.05).abs() < 1e-6));
 }
 
 /// A front that takes 1 ns over the bore is a load everywhere at once: the same section forces to round-off.

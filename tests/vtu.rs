@@ -18,12 +18,16 @@ fn what_another_reader_finds_is_what_was_given() {
     let some: Vec<f64> = (0..4095).map(|i| if i % 3 == 0 { scattered(i) } else { 0. }).collect();
     let constant = vec![7i32; 4095];
 
-    let base = Base::new(&points, &connectivity, &offsets, &[CellType::Line; 4095]);
+    let mut base = Base::new(&points, &connectivity, &offsets, &[CellType::Line; 4095]);
+    let member: Vec<u8> = (0..4096).map(|i| u8::from(i % 7 == 0)).collect();
+    base.point(Attribute::scalars("group_<a> & \"b\"", 1), "", &member);
+    base.cell(Attribute::scalars("kind", 1), "1 < 2", &constant);
+    base.field("note: <a> & b", &[1]);
     let mut file = File::new(&base);
-    file.point(Attribute::scalars("values", 1), &values);
-    file.point(Attribute::vectors("single"), &single);
-    file.cell(Attribute::scalars("some", 1), &some);
-    file.cell(Attribute::scalars("constant", 1), &constant);
+    file.point(Attribute::scalars("values", 1), "Pa", &values);
+    file.point(Attribute::vectors("single"), "m", &single);
+    file.cell(Attribute::scalars("some", 1), "m", &some);
+    file.cell(Attribute::scalars("constant", 1), "", &constant);
     let bytes = file.bytes().unwrap();
     // the points' thirds of zeros and what surely counts up are in these too
     let raw = [size_of_val(&values[..]), size_of_val(&single[..]), size_of_val(&some[..]), size_of_val(&constant[..])];
@@ -34,6 +38,14 @@ fn what_another_reader_finds_is_what_was_given() {
         added < kept + of_some / 4 * 3 + of_constant / 4 && added > kept,
         "{added} of {kept}, {of_some}, {of_constant}"
     );
+
+    // the XML stands before the numbers
+    let xml = String::from_utf8_lossy(&bytes[..bytes.windows(13).position(|at| at == b"<AppendedData").unwrap()]);
+    for index in ["connectivity", "offsets"] {
+        // meshio mixes unsigned offsets with signed numbers and gets floating-point node numbers (nschloe/meshio#831)
+        assert!(xml.contains(&format!("type=\"Int64\" Name=\"{index}\"")), "{xml}");
+    }
+    assert!(!xml.contains("UInt64\" Name"), "{xml}");
 
     let piece = frames::piece(&bytes).unwrap();
     let found = |data: &[Attribute], i: usize| match &data[i] {
@@ -46,5 +58,14 @@ fn what_another_reader_finds_is_what_was_given() {
     assert_eq!(found(&piece.data.point, 0), ("values".into(), IOBuffer::F64(values)));
     assert_eq!(found(&piece.data.point, 1), ("single".into(), IOBuffer::F32(single)));
     assert_eq!(found(&piece.data.cell, 0), ("some".into(), IOBuffer::F64(some)));
-    assert_eq!(found(&piece.data.cell, 1), ("constant".into(), IOBuffer::I32(constant)));
+    assert_eq!(found(&piece.data.cell, 1), ("constant".into(), IOBuffer::I32(constant.clone())));
+    // what all files share stands behind what is a file's own
+    assert_eq!(found(&piece.data.point, 2), ("group_<a> & \"b\"".into(), IOBuffer::U8(member)));
+    assert_eq!(found(&piece.data.cell, 2), ("kind".into(), IOBuffer::I32(constant)));
+    let unit =
+        |unit: &str| format!("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{unit}</InformationKey>");
+    for (unit, count) in [(unit("Pa"), 1), (unit("m"), 3), (unit("1 &lt; 2"), 1)] {
+        assert_eq!(xml.matches(&unit).count(), count, "{unit} in {xml}");
+    }
+    assert!(xml.contains("Name=\"note: &lt;a&gt; &amp; b\" NumberOfTuples=\"1\" format=\"ascii\">1<"), "{xml}");
 }

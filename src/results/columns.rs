@@ -1,5 +1,6 @@
 //! Tables that a run wrote, read back: `histories.csv` and `rings.csv`.
 
+use super::csv;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -15,10 +16,9 @@ impl Columns {
     pub fn read(path: &Path) -> Result<Columns> {
         let text = std::fs::read_to_string(path)
             .map_err(|why| Error::input(format!("{} cannot be read: {why}", path.display())))?;
-        let cells = |line: &str| line.split(',').map(String::from).collect::<Vec<_>>();
-        let mut lines = text.lines();
-        let names = cells(lines.next().unwrap_or_default());
-        Ok(Columns { path: path.into(), names, rows: lines.map(cells).collect() })
+        let mut rows = csv::rows(&text);
+        let names = if rows.is_empty() { vec![] } else { rows.remove(0) };
+        Ok(Columns { path: path.into(), names, rows })
     }
 
     /// The cells of a column.

@@ -1,18 +1,10 @@
-//! One moment as a VTK unstructured grid: faces with stresses, interfaces as line cells with gap, slip and tractions.
+//! What a frame takes from a state.
 
-use super::sites::Sites;
-use super::stress::{CellStress, Recovery, von_mises};
-use super::vtu;
 use crate::model::resolve::Model;
-use crate::number::seconds;
 use crate::physics::joint::Status;
-use crate::physics::shape::Shape;
-use crate::solve::interface::Interface;
+use crate::solve::interface::{Interface, JointPoint, JointState};
 use crate::solve::system::{State, System};
-use crate::solve::unknowns::Unknowns;
-use crate::{Error, Result};
-use std::sync::Arc;
-use vtkio::model::{Attribute, CellType};
+use nalgebra::Vector2;
 
 /// Everything of a state that a frame shows, taken out of the solver so that another thread can write it.
 #[derive(Debug, Clone)]
@@ -20,22 +12,33 @@ pub struct Frame {
     /// [s]
     pub time: f64,
     /// the unknowns and their rates: what moves the nodes
-    q: Vec<f64>,
-    v: Vec<f64>,
-    a: Vec<f64>,
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) a: Vec<f64>,
     pub joints: Vec<JointCell>,
 }
 
-/// A joint element's mean over its points.
+/// A joint element's mean over its points. Vectors are in global axes, each point's turned by its own normal n, which
+/// points from the body into the ground, and tangent s, anticlockwise round the body: so a traction vector times the
+/// joint's length is the force on the body, although the normal turns along a curved joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointCell {
     /// normal distance of the two sides, positive open [m]
     pub gap: f64,
-    /// plastic slip [m]
+    /// plastic slip, positive where the ground moved along s relative to the body [m]
     pub slip: f64,
     /// tension positive [Pa]
     pub normal_traction: f64,
+    /// positive where the ground drags the body along s [Pa]
     pub shear_traction: f64,
+    /// gap n [m]
+    pub gap_vector: [f64; 2],
+    /// slip s [m]
+    pub slip_vector: [f64; 2],
+    /// u(ground) - u(body) [m]
+    pub jump_vector: [f64; 2],
+    /// of the ground on the body, normal_traction n + shear_traction s [Pa]
+    pub traction_vector: [f64; 2],
     /// the most open of its points: 1 sticks, 2 slips, 3 open
     pub status: i32,
 }
@@ -56,23 +59,64 @@ fn joint_cells(interface: &Interface, joints: usize, jumps: &[f64], state: &Stat
     let mut cells = vec![JointCell::default(); joints];
     let mut areas = vec![0.; joints];
     for (point, memory) in interface.points.iter().zip(&state.joints) {
-        let gap = interface.local(point, jumps)[1] + point.law.gap;
+        let at_point = at_point(interface, point, jumps, memory);
         for &(joint, area) in &point.parts {
-            let cell = &mut cells[joint];
-            cell.gap += area * gap;
-            cell.slip += area * memory.slip;
-            cell.shear_traction += area * memory.traction[0];
-            cell.normal_traction += area * memory.traction[1];
-            cell.status = cell.status.max(status_number(memory.status));
+            cells[joint] = cells[joint].plus(area, &at_point);
             areas[joint] += area;
         }
     }
-    for (cell, area) in cells.iter_mut().zip(areas) {
-        for value in [&mut cell.gap, &mut cell.slip, &mut cell.shear_traction, &mut cell.normal_traction] {
-            *value /= area;
+    cells.iter().zip(areas).map(|(sum, area)| sum.map(|value| value / area)).collect()
+}
+
+/// A joint point as if it were a whole joint.
+fn at_point(interface: &Interface, point: &JointPoint, jumps: &[f64], memory: &JointState) -> JointCell {
+    let jump = interface.local(point, jumps);
+    let gap = jump[1] + point.law.gap;
+    // R' turns (tangential, normal) into global axes
+    let to_global = point.rotation().transpose();
+    JointCell {
+        gap,
+        slip: memory.slip,
+        normal_traction: memory.traction[1],
+        shear_traction: memory.traction[0],
+        gap_vector: (to_global * Vector2::new(0., gap)).into(),
+        slip_vector: (to_global * Vector2::new(memory.slip, 0.)).into(),
+        jump_vector: (to_global * jump).into(),
+        traction_vector: (to_global * memory.traction).into(),
+        status: status_number(memory.status),
+    }
+}
+
+impl JointCell {
+    /// With another's values times a weight; the status is the more open one.
+    fn plus(&self, weight: f64, other: &JointCell) -> JointCell {
+        let vector = |a: [f64; 2], b: [f64; 2]| [a[0] + weight * b[0], a[1] + weight * b[1]];
+        JointCell {
+            gap: self.gap + weight * other.gap,
+            slip: self.slip + weight * other.slip,
+            normal_traction: self.normal_traction + weight * other.normal_traction,
+            shear_traction: self.shear_traction + weight * other.shear_traction,
+            gap_vector: vector(self.gap_vector, other.gap_vector),
+            slip_vector: vector(self.slip_vector, other.slip_vector),
+            jump_vector: vector(self.jump_vector, other.jump_vector),
+            traction_vector: vector(self.traction_vector, other.traction_vector),
+            status: self.status.max(other.status),
         }
     }
-    cells
+
+    fn map(&self, of: impl Fn(f64) -> f64) -> JointCell {
+        JointCell {
+            gap: of(self.gap),
+            slip: of(self.slip),
+            normal_traction: of(self.normal_traction),
+            shear_traction: of(self.shear_traction),
+            gap_vector: self.gap_vector.map(&of),
+            slip_vector: self.slip_vector.map(&of),
+            jump_vector: self.jump_vector.map(&of),
+            traction_vector: self.traction_vector.map(&of),
+            status: self.status,
+        }
+    }
 }
 
 fn status_number(status: Status) -> i32 {
@@ -83,126 +127,10 @@ fn status_number(status: Status) -> i32 {
     }
 }
 
-/// The part of every frame that does not change: points, cells, materials, and what makes fields of a state.
-pub struct Grid {
-    base: vtu::Base,
-    /// number of the material, from 1 in the order of [`Model::materials`]; 0 on interfaces
-    material: Vec<i32>,
-    /// the points, one for each material that meets at a node
-    sites: Sites,
-    recovery: Recovery,
-    unknowns: Arc<Unknowns>,
-}
-
-impl Grid {
-    pub fn new(model: &Model, system: &System) -> Grid {
-        let sites = Sites::new(model);
-        let (mut connectivity, mut offsets, mut types, mut material) = (vec![], vec![], vec![], vec![]);
-        let mut push = |nodes: &mut dyn Iterator<Item = usize>, shape: Shape, number: i32| {
-            connectivity.extend(nodes.map(|n| n as u64));
-            offsets.push(connectivity.len() as u64);
-            types.push(cell_type(shape));
-            material.push(number);
-        };
-        for ((cell, _), of_face) in model.faces().zip(&sites.faces) {
-            let number = model.material_of[cell].map_or(0, |m| m as i32 + 1);
-            push(&mut of_face.iter().copied(), model.mesh.cells[cell].shape, number);
-        }
-        for joint in model.joints.iter() {
-            push(&mut joint.pairs.iter().map(|&p| model.pairs[p].ground), joint.shape, 0);
-        }
-        Grid {
-            base: vtu::Base::new(&sites.in_space(&model.mesh.points), &connectivity, &offsets, &types),
-            material,
-            recovery: Recovery::new(model, &sites),
-            sites,
-            unknowns: system.unknowns.clone(),
-        }
-    }
-
-    /// The .vtu file of a frame, displacements counted from the unknowns `origin`. Displacement, stress and the
-    /// interfaces' numbers are in double precision; what has an error far above round-off or can be had from them is in
-    /// single precision: half the bytes and time.
-    pub fn vtu(&self, frame: &Frame, origin: &[f64]) -> Result<Vec<u8>> {
-        // what stresses come from: the part of gravity is in it
-        let total_displacement = self.unknowns.at_nodes(&frame.q);
-        let centres = self.recovery.stresses(&total_displacement);
-        let mut file = vtu::File::new(&self.base);
-        let nodal_stresses = self.recovery.nodal_stresses(&total_displacement, &centres);
-        self.add_point_data(&mut file, frame, origin, &nodal_stresses);
-        self.add_cell_data(&mut file, &frame.joints, &centres);
-        let why = |e| Error::input(format!("the frame at {} cannot be written as VTU: {e}", seconds(frame.time)));
-        file.bytes().map_err(why)
-    }
-
-    fn add_point_data(&self, file: &mut vtu::File, frame: &Frame, origin: &[f64], stress: &[[f64; 4]]) {
-        let moved: Vec<f64> = frame.q.iter().zip(origin).map(|(q, o)| q - o).collect();
-        let in_space = |q: &[f64]| self.sites.in_space(&self.unknowns.at_nodes(q)).into_flattened();
-        let six: Vec<[f64; 6]> = stress.iter().copied().map(six).collect();
-        let von_mises: Vec<f64> = stress.iter().copied().map(von_mises).collect();
-        file.point(Attribute::vectors("displacement"), &in_space(&moved));
-        file.point(Attribute::vectors("velocity"), &single(&in_space(&frame.v)));
-        file.point(Attribute::vectors("acceleration"), &single(&in_space(&frame.a)));
-        file.point(Attribute::generic("nodal_stress", 6), &single(six.as_flattened()));
-        file.point(Attribute::scalars("nodal_von_mises", 1), &single(&von_mises));
-    }
-
-    /// Faces first, then interfaces; what only the other kind has is zero.
-    fn add_cell_data(&self, file: &mut vtu::File, joints: &[JointCell], faces: &[CellStress]) {
-        let tensor = |of: fn(&CellStress) -> [f64; 4]| -> Vec<f64> {
-            let values: Vec<[f64; 6]> = faces.iter().map(|face| six(of(face))).collect();
-            padded(0, values.into_flattened(), 6 * joints.len())
-        };
-        let von_mises = faces.iter().map(|face| von_mises(face.stress)).collect();
-        file.cell(Attribute::generic("stress", 6), &tensor(|face| face.stress));
-        file.cell(Attribute::generic("strain", 6), &single(&tensor(|face| face.strain)));
-        file.cell(Attribute::scalars("von_mises", 1), &single(&padded(0, von_mises, joints.len())));
-        file.cell(Attribute::scalars("material", 1), &self.material);
-        let mut on_lines = |name: &str, of: fn(&JointCell) -> f64| {
-            let values = padded(faces.len(), joints.iter().map(of).collect(), 0);
-            file.cell(Attribute::scalars(name, 1), &values);
-        };
-        on_lines("gap", |joint| joint.gap);
-        on_lines("slip", |joint| joint.slip);
-        on_lines("normal_traction", |joint| joint.normal_traction);
-        on_lines("shear_traction", |joint| joint.shear_traction);
-        let status = padded(faces.len(), joints.iter().map(|joint| joint.status).collect(), 0);
-        file.cell(Attribute::scalars("status", 1), &status);
-    }
-}
-
-/// `values` with zeros before and after.
-fn padded<T: Copy + Default>(before: usize, values: Vec<T>, after: usize) -> Vec<T> {
-    [vec![T::default(); before], values, vec![T::default(); after]].concat()
-}
-
-fn single(values: &[f64]) -> Vec<f32> {
-    values.iter().map(|&x| x as f32).collect()
-}
-
-/// ParaView's order of a symmetric tensor: xx, yy, zz, xy, yz, xz.
-fn six([xx, yy, zz, xy]: [f64; 4]) -> [f64; 6] {
-    [xx, yy, zz, xy, 0., 0.]
-}
-
-fn cell_type(shape: Shape) -> CellType {
-    match shape {
-        Shape::Point => CellType::Vertex,
-        Shape::Line2 => CellType::Line,
-        Shape::Line3 => CellType::QuadraticEdge,
-        Shape::Tri3 => CellType::Triangle,
-        Shape::Quad4 => CellType::Quad,
-        Shape::Tri6 => CellType::QuadraticTriangle,
-        Shape::Quad8 => CellType::QuadraticQuad,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::interface::JointState;
     use crate::solve::interface::testing::{LAW, along};
-    use nalgebra::Vector2;
 
     /// Two joints of lengths 1 and 3 that share the middle one of three points: each one's mean is of its own two ends.
     #[test]
@@ -218,6 +146,24 @@ mod tests {
             let found = [cell.slip, cell.shear_traction, cell.normal_traction, cell.gap, f64::from(cell.status)];
             let should = [slip, slip, -2. * slip, gap, status];
             assert!(found.iter().zip(should).all(|(a, b)| (a - b).abs() < 1e-14), "{found:?}, should be {should:?}");
+        }
+    }
+
+    /// A joint along (0.6, 0.8), the body above it on its left: n = (0.8, -0.6) points into the ground, s = (0.6, 0.8).
+    /// Pressed by 5 Pa and dragged by 10 Pa along s, the body feels -5 n + 10 s = (2, 11) Pa. The gap before any load,
+    /// 0.25 m, is in the gap and not in the jump.
+    #[test]
+    fn vectors_are_in_global_axes_and_tractions_act_on_the_body() {
+        let law = crate::physics::joint::JointLaw { gap: 0.25, ..LAW };
+        let interface = along(&[[0., 0.], [3., 4.]], &[law]);
+        let memory = JointState { slip: 0.5, status: Status::SlipForward, traction: Vector2::new(10., -5.) };
+        let state = State { time: 0., q: vec![], v: vec![], a: vec![], joints: vec![memory; 2], free_field: vec![] };
+        // both pairs part by 2 along n and by 1 along s
+        let cell = joint_cells(&interface, 1, &[2.2, -0.4, 2.2, -0.4], &state)[0];
+        let found = [cell.gap_vector, cell.slip_vector, cell.jump_vector, cell.traction_vector];
+        let should = [[2.25 * 0.8, -2.25 * 0.6], [0.3, 0.4], [2.2, -0.4], [2., 11.]];
+        for (found, should) in found.iter().flatten().zip(should.iter().flatten()) {
+            assert!((found - should).abs() < 1e-14, "{found} is not {should}");
         }
     }
 }

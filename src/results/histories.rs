@@ -1,8 +1,10 @@
 //! Motion of the probes at every step, as CSV, and their peaks.
 
+use super::csv;
 use super::lines::Lines;
 use crate::Result;
 use crate::model::probes::NodeProbe;
+use crate::number::{decimal, nearest_decimal};
 use crate::solve::system::State;
 use crate::solve::unknowns::Unknowns;
 use serde::Serialize;
@@ -28,7 +30,8 @@ pub struct Histories {
 
 impl Histories {
     pub fn create(path: &Path, probes: &[NodeProbe]) -> Result<Histories> {
-        let columns = probes.iter().flat_map(|p| COMPONENTS.map(|c| format!(",{}.{c}", p.name)));
+        let columns = probes.iter().flat_map(|p| COMPONENTS.map(|c| format!("{}.{c}", p.name)));
+        let columns = columns.map(|name| format!(",{}", csv::cell(&name)));
         Ok(Histories {
             lines: Lines::create(path, format!("t{}\n", columns.collect::<String>()))?,
             probes: probes.to_vec(),
@@ -40,7 +43,7 @@ impl Histories {
     pub fn record(&mut self, unknowns: &Unknowns, state: &State, origin: &[f64]) {
         let line = &mut self.lines.waiting;
         // writing to memory does not fail
-        let _ = write!(line, "{:e}", state.time);
+        let _ = write!(line, "{}", decimal(state.time));
         for (probe, peaks) in self.probes.iter().zip(&mut self.peaks) {
             let mut motion = [&state.q, &state.v, &state.a].map(|x| unknowns.at_node(x, probe.node));
             let at_origin = unknowns.at_node(origin, probe.node);
@@ -48,7 +51,7 @@ impl Histories {
             for (value, peak) in motion.as_flattened().iter().zip(peaks) {
                 let _ = write!(line, ",{value:e}");
                 if value.abs() > peak.value.abs() {
-                    *peak = Peak { value: *value, time: state.time };
+                    *peak = Peak { value: *value, time: nearest_decimal(state.time) };
                 }
             }
         }

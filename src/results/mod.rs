@@ -1,15 +1,19 @@
 //! What people look at: frames for ParaView, histories, stresses, the summary.
 
 pub mod columns;
+pub mod csv;
 pub mod file;
 pub mod folder;
 pub mod frame;
+pub mod grid;
+pub mod groups;
 pub mod histories;
 pub mod hoop;
 pub mod lines;
 pub mod motion;
 pub mod nodal;
 pub mod plot;
+pub mod polar;
 pub mod ring;
 pub mod ring_table;
 pub mod series;
@@ -19,3 +23,4 @@ pub mod spectrum;
 pub mod stress;
 pub mod summary;
 pub mod vtu;
+mod xml_text;

@@ -3,8 +3,11 @@
 //! Each frame is renamed into place before the `.pvd` names it, so the series is valid at any moment.
 
 use super::file;
-use super::frame::{Frame, Grid};
+use super::frame::Frame;
+use super::grid::Grid;
+use super::xml_text::escaped;
 use crate::Result;
+use crate::number::decimal;
 use std::path::{Path, PathBuf};
 
 pub struct Series {
@@ -33,8 +36,8 @@ impl Series {
     pub fn write(&mut self, grid: &Grid, frame: &Frame, origin: &[f64]) -> Result<()> {
         let path = self.frame_path(self.count);
         file::replace(&self.folder.join(&path), &grid.vtu(frame, origin)?)?;
-        let (time, path) = (frame.time, escaped(&path));
-        self.index += &format!("    <DataSet timestep=\"{time:e}\" part=\"0\" file=\"{path}\"/>\n");
+        let (time, path) = (decimal(frame.time), escaped(&path));
+        self.index += &format!("    <DataSet timestep=\"{time}\" part=\"0\" file=\"{path}\"/>\n");
         self.count += 1;
         self.write_index()
     }
@@ -51,22 +54,5 @@ impl Series {
              <Collection>\n{frames}  </Collection>\n</VTKFile>\n"
         );
         file::replace(&self.folder.join(format!("{}.pvd", self.name)), index.as_bytes())
-    }
-}
-
-/// The name of a case may hold what XML does not allow in an attribute, or would make a blank of.
-fn escaped(text: &str) -> String {
-    let named = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
-    named.replace('\t', "&#9;").replace('\n', "&#10;").replace('\r', "&#13;")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// XML 1.0, 2.4 and 3.3.3.
-    #[test]
-    fn an_attribute_holds_any_name() {
-        assert_eq!(escaped("a&b<c\"d\te\nf\rg ü'>"), "a&amp;b&lt;c&quot;d&#9;e&#10;f&#13;g ü'>");
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A thread of its own does it where there are frames, so that the solver does not wait.
 
-use super::frame::{Frame, Grid};
+use super::frame::Frame;
+use super::grid::Grid;
 use super::motion::{Motion, Spans};
 use super::ring::rings;
 use super::ring_table::RingTable;

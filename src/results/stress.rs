@@ -23,6 +23,15 @@ pub fn von_mises([xx, yy, zz, xy]: [f64; 4]) -> f64 {
     (((xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2)) / 2. + 3. * xy * xy).sqrt()
 }
 
+/// The principal stresses s1 >= s2 >= s3 [Pa] of (xx, yy, zz, xy): zz, and in the plane the mean of xx and yy plus and
+/// minus the radius of Mohr's circle.
+pub fn principal([xx, yy, zz, xy]: [f64; 4]) -> [f64; 3] {
+    let (mean, radius) = ((xx + yy) / 2., ((xx - yy) / 2.).hypot(xy));
+    let mut stresses = [mean + radius, mean - radius, zz];
+    stresses.sort_by(|a, b| b.total_cmp(a));
+    stresses
+}
+
 /// What turns nodal displacements into stresses; made once, used for every frame. Lists in one piece: that is quick.
 pub struct Recovery {
     faces: Vec<Face>,
@@ -154,5 +163,20 @@ mod tests {
         assert!((von_mises([3., 0., 0., 0.]) - 3.).abs() < 1e-15);
         assert!((von_mises([0., 0., 0., 2.]) - 12f64.sqrt()).abs() < 1e-15);
         assert!(von_mises([5., 5., 5., 0.]).abs() < 1e-15);
+    }
+
+    /// [[50, 30], [30, -20]] has eigenvalues 15 +- sqrt(35^2 + 30^2), 61.0977 and -31.0977; zz lies between them, above
+    /// them and below them.
+    #[test]
+    fn principal_stresses_are_the_eigenvalues_in_falling_order() {
+        let radius = 2125f64.sqrt();
+        for (zz, expected) in [
+            (0., [15. + radius, 0., 15. - radius]),
+            (100., [100., 15. + radius, 15. - radius]),
+            (-100., [15. + radius, 15. - radius, -100.]),
+        ] {
+            let found = principal([50., -20., zz, 30.]);
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-13), "{found:?}, not {expected:?}");
+        }
     }
 }

@@ -74,6 +74,8 @@ impl Summary {
                 format!("{component} {} {unit} at {:6.2} ms", readable(scale * of("value")), 1e3 * of("time"))
             };
             let [x, y] = [peak("ux", 1e3, "mm"), peak("uy", 1e3, "mm")];
+            // a line break in a name would break the line of the table
+            let probe = if probe.contains(char::is_control) { &format!("{probe:?}") } else { probe };
             text += &format!("peak {probe:<12} {x}   {y}   {}\n", peak("ay", 1., "m/s2"));
         }
         let c = &self.contact;

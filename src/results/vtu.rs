@@ -5,6 +5,7 @@
 //! fdeflate takes a fifth of the time of zlib at its quickest, and bytes as they are, not in base64, make up for what
 //! it leaves.
 
+use super::xml_text::escaped;
 use bytemuck::Pod;
 use flate2::{Compression, write::ZlibEncoder};
 use std::io::Write as _;
@@ -19,7 +20,12 @@ pub struct Base {
     point_count: usize,
     cell_count: usize,
     /// points, connectivity, offsets, types
-    arrays: Vec<Vec<u8>>,
+    geometry: Vec<Vec<u8>>,
+    /// arrays whose values do not change from file to file
+    point: Arrays,
+    cell: Arrays,
+    /// elements of the grid's field data
+    field: String,
 }
 
 impl Base {
@@ -31,8 +37,40 @@ impl Base {
         Base {
             point_count: points.len(),
             cell_count: types.len(),
-            arrays: arrays.map(|bytes| zlib(bytes, Compression::default())).into(),
+            geometry: arrays.map(|bytes| zlib(bytes, Compression::default())).into(),
+            point: Arrays::default(),
+            cell: Arrays::default(),
+            field: String::new(),
         }
+    }
+
+    /// Adds an array to all files, with `values` for each point; `unit` as in [`File::point`].
+    pub fn point<T: Pod>(&mut self, attribute: Attribute, unit: &str, values: &[T])
+    where
+        Vec<T>: Into<IOBuffer>,
+    {
+        let compressed = zlib(bytemuck::cast_slice(values), Compression::default());
+        self.point.push::<T>(attribute, unit, compressed);
+    }
+
+    /// Adds an array to all files, with `values` for each cell; `unit` as in [`File::point`].
+    pub fn cell<T: Pod>(&mut self, attribute: Attribute, unit: &str, values: &[T])
+    where
+        Vec<T>: Into<IOBuffer>,
+    {
+        let compressed = zlib(bytemuck::cast_slice(values), Compression::default());
+        self.cell.push::<T>(attribute, unit, compressed);
+    }
+
+    /// Adds integers under a name to the field data of all files. Texts would be an array of strings, which meshio
+    /// refuses, and with it the file; so what is to be read stands in names.
+    pub fn field(&mut self, name: &str, values: &[i32]) {
+        let (name, count) = (escaped(name), values.len());
+        let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+        self.field += &format!(
+            "<DataArray type=\"Int32\" Name=\"{name}\" NumberOfTuples=\"{count}\" format=\"ascii\">{}</DataArray>",
+            values.join(" ")
+        );
     }
 }
 
@@ -47,16 +85,18 @@ pub struct File<'a> {
 struct Arrays {
     /// name and kind, without data
     attributes: Vec<Attribute>,
+    units: Vec<String>,
     compressed: Vec<Vec<u8>>,
 }
 
 impl Arrays {
-    fn push<T: Pod>(&mut self, attribute: Attribute, values: &[T])
+    fn push<T>(&mut self, attribute: Attribute, unit: &str, compressed: Vec<u8>)
     where
         Vec<T>: Into<IOBuffer>,
     {
         self.attributes.push(attribute.with_data(Vec::<T>::new()));
-        self.compressed.push(quick(bytemuck::cast_slice(values)));
+        self.units.push(unit.into());
+        self.compressed.push(compressed);
     }
 }
 
@@ -65,28 +105,41 @@ impl File<'_> {
         File { base, point: Arrays::default(), cell: Arrays::default() }
     }
 
-    /// Adds an array with `values` for each point.
-    pub fn point<T: Pod>(&mut self, attribute: Attribute, values: &[T])
+    /// Adds an array with `values` for each point. `unit`, or what numbers mean, goes where VTK keeps it, in the array's
+    /// information under `vtkDataArray::UNITS_LABEL`; none where it is empty.
+    pub fn point<T: Pod>(&mut self, attribute: Attribute, unit: &str, values: &[T])
     where
         Vec<T>: Into<IOBuffer>,
     {
-        self.point.push(attribute, values);
+        self.point.push::<T>(attribute, unit, quick(bytemuck::cast_slice(values)));
     }
 
-    /// Adds an array with `values` for each cell.
-    pub fn cell<T: Pod>(&mut self, attribute: Attribute, values: &[T])
+    /// Adds an array with `values` for each cell; `unit` as in [`File::point`].
+    pub fn cell<T: Pod>(&mut self, attribute: Attribute, unit: &str, values: &[T])
     where
         Vec<T>: Into<IOBuffer>,
     {
-        self.cell.push(attribute, values);
+        self.cell.push::<T>(attribute, unit, quick(bytemuck::cast_slice(values)));
     }
 
-    /// The file.
+    /// The file: what is its own before what it shares with others.
     pub fn bytes(self) -> Result<Vec<u8>, xml::Error> {
-        let arrays = [&self.point.compressed, &self.cell.compressed, &self.base.arrays].into_iter().flatten();
-        let xml = form(self.base, self.point.attributes, self.cell.attributes)?;
-        Ok(with_appended(&xml, arrays))
+        let File { base, point, cell } = self;
+        let groups = [&point, &base.point, &cell, &base.cell];
+        let units = groups.into_iter().flat_map(|arrays| arrays.units.iter().map(String::as_str));
+        let arrays = groups.into_iter().flat_map(|arrays| &arrays.compressed).chain(&base.geometry);
+        let arrays: Vec<Appended> =
+            units.chain(["m", "", "", ""]).zip(arrays).map(|(unit, bytes)| Appended { unit, bytes }).collect();
+        let all = |own: &Arrays, shared: &Arrays| [&own.attributes[..], &shared.attributes].concat();
+        Ok(with_appended(&form(base, all(&point, &base.point), all(&cell, &base.cell))?, &arrays))
     }
+}
+
+/// An array's bytes, which stand behind the XML.
+struct Appended<'a> {
+    /// empty where there is none
+    unit: &'a str,
+    bytes: &'a Vec<u8>,
 }
 
 /// The file without numbers.
@@ -106,32 +159,60 @@ fn form(base: &Base, point: Vec<Attribute>, cell: Vec<Attribute>) -> Result<Stri
     let xml = vtk.try_into_xml_format(Compressor::ZLib, 1)?.to_string();
     // vtkio counts what it is given, and leaves out a count of zero
     let counts = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", base.point_count, base.cell_count);
-    Ok(xml.replacen("<Piece", &counts, 1))
+    let field = match base.field.is_empty() {
+        true => String::new(),
+        false => format!("<FieldData>{}</FieldData>", base.field),
+    };
+    Ok(with_signed_indices(xml.replacen("<Piece", &(field + &counts), 1)))
+}
+
+/// Connectivity and offsets as Int64, the type that VTK and ParaView write: meshio adds unsigned offsets to signed
+/// numbers, gets floating-point node numbers and can neither index with them nor convert the file. vtkio writes UInt64;
+/// the bytes of both types are equal below 2^63.
+fn with_signed_indices(xml: String) -> String {
+    ["connectivity", "offsets"].into_iter().fold(xml, |xml, name| {
+        let unsigned = format!("type=\"UInt64\" Name=\"{name}\"");
+        debug_assert!(xml.contains(&unsigned), "vtkio writes {name} as UInt64");
+        xml.replacen(&unsigned, &format!("type=\"Int64\" Name=\"{name}\""), 1)
+    })
 }
 
 /// `xml` with its arrays at its end, and where they begin there instead of what they held. For meshio they have to
 /// stand in their order without gaps, and a line has to end after the last.
-fn with_appended<'a>(xml: &str, arrays: impl Iterator<Item = &'a Vec<u8>> + Clone) -> Vec<u8> {
+fn with_appended(xml: &str, arrays: &[Appended]) -> Vec<u8> {
     const INLINE: &str = " format=\"binary\"";
     const END: &str = "</DataArray>";
-    let length = arrays.clone().map(Vec::len).sum::<usize>();
-    let mut bytes = Vec::with_capacity(2 * xml.len() + length);
-    let (mut left, mut offset) = (xml, 0);
-    for array in arrays.clone() {
+    let length = arrays.iter().map(|array| array.bytes.len() + array.unit.len()).sum::<usize>();
+    let mut bytes = Vec::with_capacity(4 * xml.len() + length);
+    let (head, mut left) = xml.split_at(xml.find("<Piece").expect("a grid has a piece"));
+    bytes.extend(head.as_bytes());
+    let mut offset = 0;
+    for Appended { unit, bytes: array } in arrays {
         let (with_old, after) = left.split_once(END).expect("vtkio writes every array it is given");
         let (before, attributes) = with_old.rsplit_once(INLINE).expect("vtkio writes arrays inline");
         // base64 has no `>`
         let (attributes, _) = attributes.split_once('>').expect("a tag has an end");
-        let tag = format!("{before} format=\"appended\" offset=\"{offset}\"{attributes}>{END}");
+        let unit = information(unit);
+        let tag = format!("{before} format=\"appended\" offset=\"{offset}\"{attributes}>{unit}{END}");
         bytes.extend(tag.as_bytes());
         (left, offset) = (after, offset + array.len());
     }
     let (rest, _) = left.rsplit_once("</VTKFile>").expect("vtkio writes a whole file");
     bytes.extend(rest.as_bytes());
     bytes.extend(b"<AppendedData encoding=\"raw\">\n_");
-    arrays.for_each(|array| bytes.extend(array));
+    arrays.iter().for_each(|array| bytes.extend(array.bytes));
     bytes.extend(b"\n</AppendedData></VTKFile>");
     bytes
+}
+
+/// How VTK keeps the unit of an array.
+fn information(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        _ => {
+            format!("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>", escaped(unit))
+        }
+    }
 }
 
 /// In little time. fdeflate's code has short words for zeros and long ones for all else: numbers without zeros would

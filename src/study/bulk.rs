@@ -10,8 +10,8 @@ const MANY_FRAMES: usize = 10_000;
 const MUCH: f64 = 10e9;
 
 /// Bytes of a frame, as taken from runs: of the XML that holds its numbers, and for each point and each cell.
-const FORM: f64 = 3e3;
-const PLACE: f64 = 80.;
+const FORM: f64 = 8e3;
+const PLACE: f64 = 90.;
 /// of a row in `rings.csv`, of which each joint has one a frame
 const RING: f64 = 220.;
 /// of a number in `histories.csv`

@@ -14,6 +14,7 @@ use crate::model::resolve::Model;
 use crate::number::seconds;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
+use crate::results::ring;
 use crate::solve::system::Rayleigh;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -161,6 +162,7 @@ fn time(model: &Model) -> String {
 fn warnings(mesh: &Mesh, model: &Model, rayleigh: Rayleigh) -> String {
     let mut warnings = model.warnings.clone();
     warnings.extend(bulk::warning(model));
+    warnings.extend(ring::uncut(model));
     warnings.extend(mesh_report::warnings(mesh));
     warnings.extend(damping::warnings(model, rayleigh));
     for load in &model.loads {

@@ -7,7 +7,7 @@ const SIZE: [usize; 2] = [64, 14];
 
 /// Rows of (t [s], p [Pa]), with a heading that the law "table" reads.
 pub fn csv(curve: &[[f64; 2]]) -> String {
-    curve.iter().fold("t [s],p [Pa]\n".into(), |text, [t, p]| text + &format!("{t:e},{p:e}\n"))
+    curve.iter().fold("t [s],p [Pa]\n".into(), |text, [t, p]| text + &format!("{t},{p:e}\n"))
 }
 
 /// Stars over an axis in ms, pressures in kPa; the curve begins at its largest value and ends at zero.

@@ -5,7 +5,8 @@ use super::run::{Loaded, Request, load};
 use super::screen::Screen;
 use crate::results::file;
 use crate::results::folder::refuse_foreign;
-use crate::results::frame::{Frame, Grid};
+use crate::results::frame::Frame;
+use crate::results::grid::Grid;
 use crate::solve::system::State;
 use crate::{Error, Result};
 
@@ -35,7 +36,7 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     let folder = folder.join("modes");
     file::create_folder(&folder)?;
     let rest = State::at_rest(&prepared.system);
-    let grid = Grid::new(&prepared.model, &prepared.system);
+    let grid = Grid::of_modes(&prepared.model, &prepared.system);
     let mut table = String::from("mode  frequency [Hz]  file\n");
     for (i, mode) in modes.iter().enumerate() {
         let shape = State { q: mode.shape.clone(), ..rest.clone() };

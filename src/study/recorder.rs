@@ -2,8 +2,9 @@
 
 use super::prepare::Prepared;
 use crate::Result;
+use crate::number::short_to;
 use crate::results::folder::{Folder, STATUS};
-use crate::results::frame::Grid;
+use crate::results::grid::Grid;
 use crate::results::histories::Histories;
 use crate::results::lines::Lines;
 use crate::results::snapshots::{Photographer, Snapshots};
@@ -115,10 +116,10 @@ impl<'a> Recorder<'a> {
             self.started.elapsed().as_secs_f64() / number as f64 * (self.prepared.model.time.steps - number) as f64;
         let _ = writeln!(
             self.status.waiting,
-            "{number:7} {:12.5e} {:9.2e} {:4} {:9.2e} {open:5} {slipping:5} {:11.4e} {:11.4e} {:11.4e} {:11.4e} \
+            "{number:7} {:>12} {:>9} {:4} {:9.2e} {open:5} {slipping:5} {:11.4e} {:11.4e} {:11.4e} {:11.4e} \
              {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {:11.4e} {left:8.1}",
-            step.state().time,
-            step.state().time - old.time,
+            short_to(7, step.state().time),
+            short_to(3, step.state().time - old.time),
             step.iterations,
             step.displacement_test,
             e.work,

@@ -15,7 +15,8 @@ use crate::model::openings::Openings;
 use crate::model::resolve::Model;
 use crate::number::seconds;
 use crate::results::folder::Folder;
-use crate::results::frame::Grid;
+use crate::results::grid::Grid;
+use crate::results::ring;
 use crate::results::summary::Timing;
 use crate::solve::law::Scheme;
 use crate::solve::march::March;
@@ -108,6 +109,7 @@ pub fn command(request: &Request) -> Result<String> {
     let Loaded { case, meshed, mut model } = load(request)?;
     refuse_loose(&model)?;
     model.warnings.extend(bulk::warning(&model));
+    model.warnings.extend(ring::uncut(&model));
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
     let told = model.warnings.len();

@@ -22,6 +22,11 @@ pub fn piece(file: &[u8]) -> Result<UnstructuredGridPiece, String> {
 fn inline(file: &[u8]) -> Option<String> {
     let begin = file.windows(2).position(|at| at == b"\n_")?;
     let (xml, appended) = (std::str::from_utf8(&file[..begin]).ok()?, &file[begin + 2..]);
+    // field data have their numbers with them, and vtkio leaves them aside
+    let xml = match xml.split_once("<FieldData>") {
+        Some((before, after)) => &(before.to_string() + after.split_once("</FieldData>")?.1),
+        None => xml,
+    };
     let (arrays, end) = xml.rsplit_once("</DataArray>")?;
     let (mut text, mut expected) = (String::new(), 0);
     for array in arrays.split("</DataArray>") {

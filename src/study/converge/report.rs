@@ -2,6 +2,8 @@
 
 use super::{Finding, Ladder, USELESS, rounded};
 use crate::Result;
+use crate::number::decimal;
+use crate::results::csv::cell;
 use crate::results::file;
 use crate::results::histories::Peak;
 use crate::results::plot::{Curve, Panel, svg};
@@ -106,16 +108,16 @@ fn csv(ladders: &[Ladder; 2], findings: &[Finding]) -> String {
         for (k, member) in ladder.members.iter().enumerate() {
             for (finding, peaks) in findings.iter().zip(&ladder.peaks) {
                 text += &format!(
-                    "{},{},{},{},{},{},{},{:e},{:e}\n",
+                    "{},{},{},{},{},{},{},{:e},{}\n",
                     ladder.name,
                     rounded(ladder.ratio.powi(k as i32)),
                     member.unknowns(),
                     member.number("steps"),
                     member.number("timing.total_s"),
-                    finding.quantity,
+                    cell(&finding.quantity.to_string()),
                     finding.quantity.unit(),
                     peaks[k].value,
-                    peaks[k].time
+                    decimal(peaks[k].time)
                 );
             }
         }

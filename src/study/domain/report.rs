@@ -3,7 +3,8 @@
 use super::alike::core_names;
 use super::{Row, Size, Study};
 use crate::Result;
-use crate::number;
+use crate::number::{self, decimal};
+use crate::results::csv::cell;
 use crate::results::plot::{Curve, Panel, svg};
 use crate::study::history::History;
 use serde_json::{Value, json};
@@ -110,19 +111,20 @@ impl Study<'_> {
                 let peak = row.histories[i].peak();
                 let from = row.from.map_or([String::new(), String::new()], |size| size.map(|x| x.to_string()));
                 let change = row.changes.get(i).map_or(String::from(",,,"), |[whole, before]| {
-                    format!("{:e},{:e},{:e},{:e}", whole.history, whole.peak, row.first_return, before.history)
+                    format!("{:e},{:e},{},{:e}", whole.history, whole.peak, decimal(row.first_return), before.history)
                 });
                 text += &format!(
-                    "{},{},{},{},{},{},{quantity},{},{:e},{:e},{change}\n",
+                    "{},{},{},{},{},{},{},{},{:e},{},{change}\n",
                     row.size[0],
                     row.size[1],
                     from[0],
                     from[1],
                     row.member.unknowns(),
                     row.member.number("timing.total_s"),
+                    cell(&quantity.to_string()),
                     quantity.unit(),
                     peak.value,
-                    peak.time
+                    decimal(peak.time)
                 );
             }
         }

@@ -4,7 +4,7 @@
 use super::group::{Ended, Tell};
 use super::job::Job;
 use crate::results::folder::Folder;
-use crate::results::frame::Grid;
+use crate::results::grid::Grid;
 use crate::results::summary::Timing;
 use crate::solve::march::March;
 use crate::solve::step::Step;

@@ -3,7 +3,7 @@
 
 use super::batch;
 use super::job::Job;
-use crate::results::frame::Grid;
+use crate::results::grid::Grid;
 use crate::results::summary::Summary;
 use crate::solve::step::MOST_TOGETHER;
 use crate::study::prepare::Prepared;

@@ -4,6 +4,7 @@ use super::plan::{Plan, Variant};
 use crate::model::case::Case;
 use crate::model::hold::refuse_loose;
 use crate::model::resolve::Model;
+use crate::results::ring;
 use crate::results::summary::Inputs;
 use crate::study::inputs::made_from;
 use crate::study::mesh::{self, Meshed};
@@ -75,8 +76,9 @@ impl Job {
 
     /// Errors: names, places and supports that do not fit the mesh.
     pub fn model(&self) -> Result<Model> {
-        let model = run::model(&self.case, &self.meshed, self.inputs.bonded, &self.meshed.openings)?;
+        let mut model = run::model(&self.case, &self.meshed, self.inputs.bonded, &self.meshed.openings)?;
         refuse_loose(&model)?;
+        model.warnings.extend(ring::uncut(&model));
         Ok(model)
     }
 

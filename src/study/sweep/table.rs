@@ -2,6 +2,7 @@
 
 use super::plan::Variant;
 use crate::number::readable;
+use crate::results::csv;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -78,13 +79,9 @@ pub fn warned(count: usize) -> String {
 pub fn csv(rows: &[Row]) -> String {
     let mut seen = BTreeSet::new();
     let columns: Vec<&str> = rows.iter().flat_map(Row::cells).map(|(c, _)| c).filter(|c| seen.insert(*c)).collect();
-    let quoted = |text: &str| match text.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_string(),
-    };
-    let mut text = columns.iter().map(|c| quoted(c)).collect::<Vec<_>>().join(",") + "\n";
+    let mut text = columns.iter().map(|c| csv::cell(c)).collect::<Vec<_>>().join(",") + "\n";
     for row in rows {
-        let cell = |column: &&str| row.cells().find(|(c, _)| c == column).map_or(String::new(), |(_, v)| quoted(v));
+        let cell = |column: &&str| row.cells().find(|(c, _)| c == column).map_or("".into(), |(_, v)| csv::cell(v));
         text += &(columns.iter().map(cell).collect::<Vec<_>>().join(",") + "\n");
     }
     text
