@@ -1,6 +1,7 @@
 //! The command line: arguments become a command, its result an exit code.
 
 use clap::{Args, Parser, Subcommand};
+use coralpipe::study::screen::{show, show_copy};
 use coralpipe::study::{self, run::Request};
 use coralpipe::{Error, Result};
 use std::collections::BTreeMap;
@@ -249,8 +250,18 @@ fn constants(texts: &[String]) -> Result<BTreeMap<String, f64>> {
     Ok(constants)
 }
 
-/// Does what was asked; what it returns goes to stdout.
-pub fn execute(command: Command) -> Result<String> {
+/// Does what was asked and prints the result: an error where stdout does not take a result that stands nowhere else.
+pub fn execute(command: Command) -> Result<()> {
+    let is_on_disk = !matches!(command, Command::Check { .. } | Command::Blast(_) | Command::Schema);
+    let text = result_of(command)?;
+    if is_on_disk {
+        show_copy(&text);
+        return Ok(());
+    }
+    show(&text)
+}
+
+fn result_of(command: Command) -> Result<String> {
     match command {
         Command::Run { case, out, bonded, quiet } => {
             study::run::command(&Request { out, bonded, quiet, ..case.request()? })

@@ -8,6 +8,8 @@
 //! the ground and its gap is positive when open; thickness out of the plane is 1 m; `dof(node n, axis i) = 2n + i`.
 
 pub mod error;
+mod free_memory;
+mod input;
 pub mod model;
 pub mod number;
 pub mod physics;

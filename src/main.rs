@@ -2,10 +2,7 @@ mod cli;
 mod memory;
 
 use clap::Parser;
-use coralpipe::study::{
-    run,
-    screen::{show, tell},
-};
+use coralpipe::study::{run, screen::tell};
 use std::process::ExitCode;
 
 #[global_allocator]
@@ -15,7 +12,7 @@ fn main() -> ExitCode {
     let cli = cli::Cli::parse();
     // Where no handler can be set, Ctrl-C ends the run at once; its files are valid at any moment.
     let _ = ctrlc::set_handler(run::interrupt);
-    match cli::execute(cli.command).and_then(|text| show(&text)) {
+    match cli::execute(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             tell(&format!("coralpipe: {error}"));

@@ -68,6 +68,35 @@ fn run(bench: &Bench, gmsh: &Path, line: &str) -> Outcome {
     Outcome { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
 }
 
+/// Killed while it writes a table, the study leaves a part of it; its next call clears that and goes on. Removed meanwhile,
+/// its folder is not made again.
+#[test]
+fn a_study_clears_what_a_kill_left_and_ends_where_its_folder_is_removed() {
+    let Some(gmsh) = gmsh() else { return };
+    let bench = box_bench("domain-accidents");
+    std::fs::create_dir_all(bench.path("output/box/domain/width4_height6")).unwrap();
+    let left = ["domain/.domain.csv.99999999.part", "domain/width4_height6/rings.csv"];
+    left.iter().for_each(|name| bench.write(format!("output/box/{name}"), ""));
+    let first = run(&bench, &gmsh, "domain box.json --set time.end=1ms");
+    assert_eq!(first.code, Some(0), "{}", first.stderr);
+    assert!(!bench.path("output/box").join(left[0]).exists());
+    let beside = run(&bench, &gmsh, "run box.json --set time.end=1ms");
+    assert_eq!(beside.code, Some(0), "a run beside its study: {}", beside.stderr);
+
+    let mut program = bench.program(&["domain", "box.json", "--set", "time.step=2 us", "--out", "lost"]);
+    let stderr = bench.path("told");
+    let child = program.env("CORALPIPE_GMSH", &gmsh).stderr(std::fs::File::create(&stderr).unwrap()).spawn().unwrap();
+    let started = Instant::now();
+    while !bench.path("lost/domain/width4_height6/run.sta").exists() && started.elapsed() < Duration::from_secs(30) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    std::fs::rename(bench.path("lost/domain"), bench.path("away")).unwrap();
+    let code = code_of(child);
+    let told = std::fs::read_to_string(stderr).unwrap();
+    assert!(code == Some(1) && told.contains("removed") && told.contains("lost/domain"), "{told}");
+    assert!(!bench.path("lost/domain").exists(), "it was made again: {told}");
+}
+
 fn json(bench: &Bench, name: &str) -> serde_json::Value {
     serde_json::from_slice(&std::fs::read(bench.path(name)).unwrap()).unwrap()
 }

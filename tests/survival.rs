@@ -4,7 +4,7 @@
 mod frames;
 mod program;
 
-use program::{Bench, CASE, Outcome, code_of};
+use program::{Bench, CASE, Outcome, code_of, failing_run};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -68,23 +68,6 @@ fn assert_done(folder: &Path, frames: usize, steps: usize) {
     assert_eq!(frames_of_valid_series(folder, "block"), frames);
     assert_eq!(rows_of_valid_histories(&folder.join("histories.csv")), steps + 1);
     assert_eq!(fs::read_to_string(folder.join("run.sta")).unwrap().lines().count(), steps + 1);
-}
-
-/// Fails after 20 ms: friction so strong, and iterations so few, that no statuses agree with their jumps.
-const FAILS: [&str; 8] = [
-    "interfaces.interface.friction=50",
-    "interfaces.interface.tangential_stiffness=1e12 Pa/m",
-    "newton.max_iterations=1",
-    "time.step=5 ms",
-    "time.end=100 ms",
-    "output.every=5 ms",
-    "loads={\"top\":{\"traction\":{\"law\":\"table\",\"times\":[0,0.020,0.025],\"values\":[0,0,1e7],\"direction\":[1,1]}}}",
-    "damping=null",
-];
-
-fn failing_run(bench: &Bench) -> Outcome {
-    let sets = FAILS.iter().flat_map(|set| ["--set", set]);
-    bench.run(&["run", "block.json"].into_iter().chain(sets).collect::<Vec<_>>())
 }
 
 #[test]

@@ -366,3 +366,18 @@ fn a_sweep_counts_as_it_goes_and_a_plan_may_begin_with_a_byte_order_mark() {
         assert!(outcome.stderr.contains(count), "no {count:?}: {}", outcome.stderr);
     }
 }
+
+/// Numbers are read from summaries as they were written, all 17 digits.
+#[test]
+fn a_sweep_with_nothing_to_do_leaves_its_table_byte_for_byte() {
+    let bench = swept("sweep-idle");
+    let table = || fs::read_to_string(bench.path("output/plan/sweep.csv")).unwrap();
+    let first = table();
+    let digits = first.split([',', '\n']).filter(|cell| cell.len() > 18 && cell.contains('.')).count();
+    assert!(digits > 50, "too few long numbers to see a difference: {digits}");
+    for _ in 0..2 {
+        let idle = bench.run_line("sweep plan.json");
+        assert!(idle.code == Some(0) && idle.stderr.contains("12 done before; 0 to do"), "{}", idle.stderr);
+        assert!(table() == first, "the table has changed");
+    }
+}

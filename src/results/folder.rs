@@ -1,9 +1,12 @@
 //! The output folder of a case, and what becomes of the results of an earlier run.
 //!
 //! A new run moves them into `previous/` and removes that only when it is done itself: finished results survive any
-//! number of runs that fail, and a kill at any moment, of which the next run picks up the pieces.
+//! number of runs that fail, and a kill at any moment, after which the next run continues or clears what is left.
 
 use super::file;
+use super::foreign::{is_of_a_run, refuse_foreign};
+use super::previous::{self, MOVING, PREVIOUS};
+use crate::input::{self, Kind};
 use crate::{Error, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -19,14 +22,8 @@ pub struct Folder {
 
 /// Its presence says that the run came to an end, its status to which.
 const SUMMARY: &str = "summary.json";
-/// The first file of a run: its presence says that the others are a run's.
+/// The first file of a run.
 pub const STATUS: &str = "run.sta";
-const PREVIOUS: &str = "previous";
-/// `previous/` while results are on their way there.
-const MOVING: &str = "previous.part";
-
-/// What may be in a folder before its first run: mode shapes, and the log of a batch.
-const BESIDE: [&str; 2] = ["modes", "batch.log"];
 
 /// How much the results in a folder are worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,39 +37,44 @@ enum Worth {
 }
 
 impl Folder {
-    /// Makes the folder and clears it of results: they go to `previous/`, unless better ones are there.
+    /// Clears a folder, which is made if its parent exists, of results: they go to `previous/`, unless better ones are
+    /// there.
     ///
     /// Errors: it cannot be written, holds things that are no results, or another run writes into it.
     pub fn prepare(path: &Path, name: &str) -> Result<Folder> {
-        file::create_folder(path)?;
+        file::create_folder_within(path)?;
         refuse_foreign(path)?;
-        let folder = Folder { path: path.into(), name: name.into(), lock: lock(path)? };
-        if folder.lock.is_some() {
-            file::remove_parts(path);
-        }
-        let (previous, moving) = (folder.file(PREVIOUS), folder.file(MOVING));
-        let here = worth(path);
-        if moving.exists() || (here > Worth::Nothing && here >= worth(&previous)) {
-            file::create_folder(&moving)?;
-            for entry in folder.entries() {
-                let from = folder.file(&entry);
-                std::fs::rename(&from, moving.join(&entry)).map_err(|e| file::not_written(&from, &e))?;
-            }
-            remove(&previous)?;
-            std::fs::rename(&moving, &previous).map_err(|e| file::not_written(&previous, &e))?;
+        let folder = Folder { path: path.into(), name: name.into(), lock: claim(path)? };
+        let (here, entries) = (worth(path), folder.entries());
+        if folder.file(MOVING).exists() || (here > Worth::Nothing && here >= worth(&folder.file(PREVIOUS))) {
+            previous::keep(path, &entries)?;
         } else if here > Worth::Nothing {
-            folder.entries().iter().try_for_each(|entry| remove(&folder.file(entry)))?;
+            entries.iter().try_for_each(|entry| file::remove(&folder.file(entry)))?;
         }
         Ok(folder)
     }
 
     /// The run is done: the results before it are no longer needed.
     pub fn remove_previous(&self) -> Result<()> {
-        remove(&self.file(PREVIOUS))
+        previous::remove(&self.path)
     }
 
     pub fn has_previous(&self) -> bool {
         self.file(PREVIOUS).exists()
+    }
+
+    /// Error: the folder was removed or replaced since the run began, or one of the `files` it wrote there.
+    pub fn refuse_lost(&self, files: &[&str]) -> Result<()> {
+        let lost = match &self.lock {
+            Some(lock) if !is_at(lock, &self.path) => Some(self.path.clone()),
+            _ => files.iter().map(|name| self.file(name)).find(|file| !file.exists()),
+        };
+        lost.map_or(Ok(()), |path| {
+            Err(Error::input(format!(
+                "{} was removed or replaced while the run was writing: run it again",
+                path.display()
+            )))
+        })
     }
 
     pub fn path(&self) -> &Path {
@@ -94,22 +96,39 @@ impl Folder {
     }
 
     pub fn write_summary(&self, content: &str) -> Result<()> {
+        self.refuse_lost(&[])?;
         file::replace(&self.file(SUMMARY), content.as_bytes())
     }
 
-    /// What runs have written here. The series before its frames, so that none is left that names missing ones; the
-    /// status file last, since it tells that there is something.
+    /// What runs have written here, in the order in which it may go: the summary, which says that the others are whole,
+    /// the series before its frames, and the status file last, since it says that there is something.
     fn entries(&self) -> Vec<String> {
         let files = std::fs::read_dir(&self.path).into_iter().flatten().flatten();
         let series = files.filter_map(|f| f.file_name().into_string().ok()).filter(|name| name.ends_with(".pvd"));
-        let others = [SUMMARY, "frames", "histories.csv", "rings.csv", STATUS].map(String::from);
-        series.chain(others).filter(|entry| self.file(entry).exists()).collect()
+        let others = ["frames", "histories.csv", "rings.csv", STATUS].map(String::from);
+        let all = [SUMMARY.to_string()].into_iter().chain(series).chain(others);
+        all.filter(|entry| self.file(entry).symlink_metadata().is_ok()).collect()
+    }
+}
+
+/// Whether the folder that is open is the one at this path.
+fn is_at(open: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |found: std::io::Result<std::fs::Metadata>| found.ok().map(|m| (m.dev(), m.ino()));
+    identity(open.metadata()) == identity(path.metadata())
+}
+
+/// Clears a folder whose run is done of what a kill may have left in it; not while a run writes into it. What cannot be
+/// removed stays: the results are whole all the same.
+pub fn tidy(path: &Path) {
+    if let Ok(Some(_lock)) = claim(path) {
+        let _ = previous::remove(path).and_then(|()| file::remove(&path.join(MOVING)));
     }
 }
 
 /// The summary of the last run that came to an end there.
 pub fn summary(folder: &Path) -> Option<Value> {
-    serde_json::from_slice(&std::fs::read(folder.join(SUMMARY)).ok()?).ok()
+    serde_json::from_slice(&input::read(&folder.join(SUMMARY), Kind::Record).ok()?).ok()
 }
 
 /// Whether all that a summary names is there and whole; frames count only where they are asked for.
@@ -126,41 +145,22 @@ fn size(path: &Path) -> Option<u64> {
     path.metadata().ok().filter(|m| m.is_file()).map(|m| m.len())
 }
 
-/// A folder that is not empty must show that its results are ours: else a slip such as `--out /` writes among other
-/// things.
-pub fn refuse_foreign(path: &Path) -> Result<()> {
-    let ours = |name: &str| path.join(name).exists();
-    if ours(STATUS)
-        || ours(PREVIOUS)
-        || ours(MOVING)
-        || summary(path).is_some_and(|s| s["inputs"]["coralpipe"].is_string())
-    {
-        return Ok(());
+/// Locks a folder for this process and clears it of files that killed processes left half-written; none where the disk
+/// knows no locks.
+///
+/// Error: another process has it.
+pub fn claim(path: &Path) -> Result<Option<File>> {
+    let lock = lock(path)?;
+    if lock.is_some() {
+        file::remove_parts(path);
     }
-    refuse_filled(path, &BESIDE, "folder of results")
-}
-
-/// A folder may hold nothing that is not `beside`: else it is none of this `kind`.
-pub fn refuse_filled(path: &Path, beside: &[&str], kind: &str) -> Result<()> {
-    let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
-    let mut foreign: Vec<String> = entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
-    foreign.retain(|name| !beside.contains(&name.as_str()));
-    foreign.sort();
-    let more = if foreign.len() > 4 { format!(" and {} more", foreign.len() - 4) } else { String::new() };
-    match foreign.is_empty() {
-        true => Ok(()),
-        false => Err(Error::input(format!(
-            "{} is no {kind}: it holds {}{more}; choose a new or an empty folder with --out",
-            path.display(),
-            foreign[..foreign.len().min(4)].join(", ")
-        ))),
-    }
+    Ok(lock)
 }
 
 /// Locks the folder for this process, which leaves no file behind; none where the disk knows no locks.
 ///
 /// Error: another process has it.
-pub fn lock(path: &Path) -> Result<Option<File>> {
+fn lock(path: &Path) -> Result<Option<File>> {
     let Ok(folder) = File::open(path) else { return Ok(None) };
     match folder.try_lock() {
         Err(TryLockError::WouldBlock) => Err(Error::input(format!(
@@ -176,16 +176,12 @@ fn worth(folder: &Path) -> Worth {
     match summary(folder) {
         Some(summary) if summary["status"] == "done" => Worth::Done,
         Some(_) => Worth::Ended,
-        None if folder.join(STATUS).exists() => Worth::CutShort,
+        None if folder.join(STATUS).exists() || has_part_of_a_run(folder) => Worth::CutShort,
         None => Worth::Nothing,
     }
 }
 
-/// Removes a file or a folder, if it is there.
-fn remove(path: &Path) -> Result<()> {
-    let removed = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
-    match removed {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(file::not_written(path, &e)),
-        _ => Ok(()),
-    }
+fn has_part_of_a_run(folder: &Path) -> bool {
+    let names = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    names.into_iter().any(|name| name.to_str().is_some_and(|name| is_of_a_run(folder, name)))
 }

@@ -14,6 +14,9 @@ use std::path::Path;
 /// Columns of a probe, in this order: displacement [m], velocity [m/s], acceleration [m/s^2].
 const COMPONENTS: [&str; 6] = ["ux", "uy", "vx", "vy", "ax", "ay"];
 
+/// With which every table begins that has a probe.
+pub const FIRST_COLUMN: &str = "t,";
+
 /// The value of largest magnitude and when it was.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Peak {

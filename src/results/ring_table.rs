@@ -16,10 +16,11 @@ pub struct RingTable {
     rings: Vec<Ring>,
 }
 
+pub const HEADER: &str = "t,body,angle_deg,N,Q,M,hoop_inner,hoop_outer,u_r,u_t,sigma_n,tau\n";
+
 impl RingTable {
     pub fn create(path: &Path, rings: Vec<Ring>) -> Result<RingTable> {
-        let header = "t,body,angle_deg,N,Q,M,hoop_inner,hoop_outer,u_r,u_t,sigma_n,tau\n";
-        Ok(RingTable { lines: Lines::create(path, header.into())?, rings })
+        Ok(RingTable { lines: Lines::create(path, HEADER.into())?, rings })
     }
 
     /// `origin`: the unknowns that displacements are counted from.

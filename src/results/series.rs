@@ -18,10 +18,14 @@ pub struct Series {
     count: usize,
 }
 
+/// Of every `.pvd`.
+pub const BEGINNING: &str =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
+
 impl Series {
     /// `folder` holds NAME.pvd and frames/.
     pub fn start(folder: &Path, name: &str) -> Result<Series> {
-        file::create_folder(&folder.join("frames"))?;
+        file::create_folder_within(&folder.join("frames"))?;
         let series = Series { folder: folder.into(), name: name.into(), index: String::new(), count: 0 };
         series.write_index()?;
         Ok(series)
@@ -49,10 +53,7 @@ impl Series {
 
     fn write_index(&self) -> Result<()> {
         let frames = &self.index;
-        let index = format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  \
-             <Collection>\n{frames}  </Collection>\n</VTKFile>\n"
-        );
+        let index = format!("{BEGINNING}  <Collection>\n{frames}  </Collection>\n</VTKFile>\n");
         file::replace(&self.folder.join(format!("{}.pvd", self.name)), index.as_bytes())
     }
 }

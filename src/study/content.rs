@@ -1,6 +1,7 @@
 //! A file's bytes and their hash, read at once: what is parsed is what is recorded, whatever becomes of the file
 //! meanwhile.
 
+use crate::input::{self, Kind};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -17,7 +18,7 @@ impl Content {
     }
 
     pub fn read(path: &Path) -> std::io::Result<Content> {
-        std::fs::read(path).map(Content::of)
+        input::read(path, Kind::Mesh).map(Content::of)
     }
 }
 

@@ -1,13 +1,18 @@
 //! Runs that need not be made again.
 
-use crate::results::folder::{is_whole, summary};
+use crate::results::folder::{is_whole, summary, tidy};
 use crate::results::summary::Inputs;
 use serde_json::Value;
 use std::path::Path;
 
 /// The summary of a run that is done, with all its files, made of just these inputs by this very program.
 pub fn finished(folder: &Path, inputs: &Inputs, frames: bool) -> Option<Value> {
-    ended(folder, inputs).filter(|summary| summary["status"] == "done" && is_whole(folder, summary, frames))
+    let summary = ended(folder, inputs)?;
+    let is_done = summary["status"] == "done" && is_whole(folder, &summary, frames);
+    if is_done {
+        tidy(folder);
+    }
+    is_done.then_some(summary)
 }
 
 /// The summary of a run of just these inputs by this very program, however it ended.

@@ -4,6 +4,7 @@ use super::constants::Expression;
 use super::content::{Content, sha256};
 use super::gmsh::Gmsh;
 use super::script::Script;
+use crate::input::{self, Kind};
 use crate::model::mesh::Mesh;
 use crate::model::msh;
 use crate::{Error, Result};
@@ -185,7 +186,7 @@ fn is_same(a: &serde_json::Value, b: &serde_json::Value) -> bool {
 ///
 /// Errors: the file is something else, say a case file: it must not be written over.
 fn read_record(file: &Path) -> Result<Option<Record>> {
-    let Ok(bytes) = std::fs::read(file) else {
+    let Ok(bytes) = input::read(file, Kind::Record) else {
         return Ok(None);
     };
     serde_json::from_slice(&bytes).map(Some).map_err(|_| {

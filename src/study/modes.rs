@@ -4,7 +4,8 @@ use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use super::screen::Screen;
 use crate::results::file;
-use crate::results::folder::refuse_foreign;
+use crate::results::folder::claim;
+use crate::results::foreign::refuse_foreign;
 use crate::results::frame::Frame;
 use crate::results::grid::Grid;
 use crate::solve::system::State;
@@ -35,6 +36,7 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     refuse_foreign(&folder)?;
     let folder = folder.join("modes");
     file::create_folder(&folder)?;
+    let _lock = claim(&folder)?;
     let rest = State::at_rest(&prepared.system);
     let grid = Grid::of_modes(&prepared.model, &prepared.system);
     let mut table = String::from("mode  frequency [Hz]  file\n");

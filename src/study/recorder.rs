@@ -54,9 +54,10 @@ impl<'a> Recorder<'a> {
         grid: Option<Arc<Grid>>,
     ) -> Result<Recorder<'a>> {
         let Prepared { model, system, .. } = prepared;
+        // The first file of all: it marks the others as those of a run, whatever stops this one.
+        let status = Lines::create(&folder.file(STATUS), STATUS_HEADER.into())?;
         let snapshots =
             Snapshots::new(model.clone(), system.clone(), origin.clone(), folder.path(), folder.name(), grid)?;
-        let status = Lines::create(&folder.file(STATUS), STATUS_HEADER.into())?;
         let mut recorder = Recorder {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
             photographer: Photographer::new(snapshots)?,
@@ -106,6 +107,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn flush(&mut self) -> Result<()> {
+        self.folder.refuse_lost(&[])?;
         self.histories.flush()?;
         self.status.flush()
     }
@@ -140,6 +142,7 @@ impl<'a> Recorder<'a> {
         self.flush()?;
         let steps_s = self.started.elapsed().as_secs_f64();
         let snapshots = self.photographer.finish()?;
+        self.folder.refuse_lost(&[STATUS, "histories.csv", "rings.csv"])?;
         let model = &self.prepared.model;
         Ok(Summary {
             status: match ending {

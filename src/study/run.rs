@@ -14,6 +14,7 @@ use crate::model::initial::Initial;
 use crate::model::openings::Openings;
 use crate::model::resolve::Model;
 use crate::number::seconds;
+use crate::results::file;
 use crate::results::folder::Folder;
 use crate::results::grid::Grid;
 use crate::results::ring;
@@ -130,6 +131,7 @@ pub fn command(request: &Request) -> Result<String> {
     begin_to_write();
     let path = request.folder(&case);
     let replaced = replaced(&path, &inputs);
+    file::create_folder(&path)?;
     let folder = Folder::prepare(&path, &case.name())?;
     replaced.iter().for_each(|sentence| screen.say(sentence));
     let solve = || {

@@ -67,7 +67,14 @@ impl Progress {
     }
 }
 
-/// To stdout. A reader that closed the pipe has seen enough.
+/// Prints what is on disk as well: that stdout does not take it is a message, and no error.
+pub fn show_copy(text: &str) {
+    if let Err(why) = show(text) {
+        tell(&format!("coralpipe: {why}; the results are on disk"));
+    }
+}
+
+/// Prints what stands nowhere else. A reader that closed the pipe has seen enough.
 ///
 /// Error: stdout cannot be written.
 pub fn show(text: &str) -> Result<()> {

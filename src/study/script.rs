@@ -1,6 +1,7 @@
 //! What a Gmsh script says about itself without being run: its constants, and the files it reads.
 
 use super::constants::{Constant, Expression, constants, included, words};
+use crate::input::{self, Kind};
 use crate::model::case::nearest;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -23,7 +24,7 @@ impl Script {
         let mut waiting = vec![path.to_path_buf()];
         let mut seen: Vec<PathBuf> = Vec::new();
         while let Some(file) = waiting.pop() {
-            let bytes = match std::fs::read(&file) {
+            let bytes = match input::read(&file, Kind::Script) {
                 Ok(bytes) => bytes,
                 Err(e) if seen.is_empty() => {
                     return Err(Error::input(format!("the script {} cannot be read: {e}", path.display())));

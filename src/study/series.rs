@@ -7,10 +7,12 @@ use super::mesh;
 use super::run::{self, Request};
 use super::screen::tell;
 use crate::model::case::{Case, Geometry};
+use crate::results::file;
 use crate::results::folder::summary;
 use crate::study::script::Script;
 use crate::{Error, Result};
 use serde_json::Value;
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -18,6 +20,8 @@ use std::path::PathBuf;
 pub struct Series<'a> {
     pub request: &'a Request,
     pub folder: PathBuf,
+    /// whether a run has written into the folder
+    begun: Cell<bool>,
 }
 
 /// What one run has that the others have not.
@@ -48,7 +52,18 @@ impl Member {
     }
 }
 
-impl Series<'_> {
+impl<'a> Series<'a> {
+    pub fn new(request: &'a Request, folder: PathBuf) -> Series<'a> {
+        Series { request, folder, begun: Cell::new(false) }
+    }
+
+    /// Writes a file of the study itself; its path.
+    pub fn write(&self, name: &str, content: &str) -> Result<String> {
+        let path = self.folder.join(name);
+        file::remove_parts_of(&path);
+        file::replace(&path, content.as_bytes()).map(|()| path.display().to_string())
+    }
+
     /// Computes a variant, or takes what was computed: same case, mesh and program.
     ///
     /// Errors: those of a run; an interrupt also where it struck gmsh.
@@ -75,6 +90,12 @@ impl Series<'_> {
         if let Some(summary) = finished(&folder, &inputs, true) {
             say(&format!("{}: taken as it is", folder.display()));
             return Ok(Member { folder, summary });
+        }
+        if self.begun.replace(true) && !self.folder.is_dir() {
+            let lost = self.folder.display();
+            return Err(Error::input(format!(
+                "{lost} was removed while its runs were computed: give the command again"
+            )));
         }
         say(&format!("{}: {} nodes", folder.display(), meshed.mesh.points.len()));
         run::command(request)?;

@@ -136,3 +136,21 @@ pub fn code_of(mut child: Child) -> Option<i32> {
         }
     }
 }
+
+/// Fails after 20 ms: friction so strong, and iterations so few, that no statuses agree with their jumps.
+pub const FAILS: [&str; 8] = [
+    "interfaces.interface.friction=50",
+    "interfaces.interface.tangential_stiffness=1e12 Pa/m",
+    "newton.max_iterations=1",
+    "time.step=5 ms",
+    "time.end=100 ms",
+    "output.every=5 ms",
+    "loads={\"top\":{\"traction\":{\"law\":\"table\",\"times\":[0,0.020,0.025],\"values\":[0,0,1e7],\"direction\":[1,1]}}}",
+    "damping=null",
+];
+
+/// A run that ends without convergence.
+pub fn failing_run(bench: &Bench) -> Outcome {
+    let sets = FAILS.iter().flat_map(|set| ["--set", set]);
+    bench.run(&["run", "block.json"].into_iter().chain(sets).collect::<Vec<_>>())
+}

@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::duplicate::Unique;
 use super::{Analysis, Case, sentence, set, table};
+use crate::input::{self, Kind};
 use crate::{Error, Result};
 
 impl Case {
@@ -15,7 +16,7 @@ impl Case {
     pub fn read(path: &Path, sets: &[String]) -> Result<Case> {
         let file = path.display();
         refuse_other_kinds(path)?;
-        let text = std::fs::read_to_string(path).map_err(|why| unreadable(path, &why))?;
+        let text = input::read_text(path, Kind::Case).map_err(|why| unreadable(path, &why))?;
         let json = parse(&text).map_err(|why| Error::input(format!("{file}, {why}")))?;
         if let Some(sentence) = set::twice(sets) {
             return Err(Error::Input(sentence));

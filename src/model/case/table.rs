@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use crate::input::{self, Kind};
 use crate::model::units::{ForceDensity, LineForce, Pressure, Time};
 
 /// Value in SI of a unit, or the sentence that there is no such unit.
@@ -69,7 +70,7 @@ type Line<'a> = (usize, &'a str);
 /// be a heading. Units in the heading, as in `t [ms], p [kPa]`, hold for the columns; without them they are SI.
 fn read(file: &Path, unit: Unit) -> Result<(Vec<f64>, Vec<f64>), String> {
     let name = file.display();
-    let text = std::fs::read_to_string(file).map_err(|why| format!("cannot read the table {name}: {why}"))?;
+    let text = input::read_text(file, Kind::Table).map_err(|why| format!("cannot read the table {name}: {why}"))?;
     let text = text.trim_start_matches('\u{feff}');
     let at = |(number, why): (usize, String)| format!("{name}, line {number}: {why}");
     let lines: Vec<Line> = text

@@ -6,6 +6,7 @@ mod tokens;
 mod v2;
 mod v4;
 
+use crate::input::{self, Kind};
 use crate::{Error, Result};
 use std::path::Path;
 use tokens::{Encoding, Tokens};
@@ -65,7 +66,7 @@ impl Block {
 /// Errors: the file cannot be read, is no MSH 4.1 or 2.2, is cut off or corrupt, is partitioned, or has parametric
 /// nodes.
 pub fn read(path: &Path) -> Result<Msh> {
-    let bytes = std::fs::read(path).map_err(|e| not_read(path, &e))?;
+    let bytes = input::read(path, Kind::Mesh).map_err(|e| not_read(path, &e))?;
     parse(&bytes, &file_name(path))
 }
 

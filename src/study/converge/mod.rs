@@ -14,11 +14,11 @@ use crate::study::mesh;
 use crate::study::quantity::Quantity;
 use crate::study::richardson::Estimate;
 use crate::study::run::{self, Request};
+use crate::study::screen::show_copy;
 use crate::study::script::Script;
 use crate::study::series::{self, Member, Series, Variant};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
-use std::io::Write;
 
 /// What the command line asks of the study.
 #[derive(Debug, Clone)]
@@ -74,7 +74,7 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
     let loaded = run::load(request)?;
     let quantities = Quantity::all(&options.compare, &loaded, &["u", "a"])?;
     let frames = if quantities.iter().any(Quantity::is_ring) { case.frame_interval() } else { case.time.end.0 };
-    let series = Series { request, folder: request.folder(&case).join("converge") };
+    let series = Series::new(request, request.folder(&case).join("converge"));
     let fine = |k: i32| rounded(refine * options.ratio.powi(k));
     refuse_equal_meshes(request, &case, options, [0, 1, 2].map(fine))?;
     let run = |name: String, level: f64, step: f64| {
@@ -100,7 +100,7 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
         return Ok(table);
     }
     // the table is a result even where the answer is no
-    let _ = std::io::stdout().write_all(table.as_bytes());
+    show_copy(&table);
     Err(Error::NoConvergence(
         "no peak converges on these meshes and time steps: the table says how each goes on".into(),
     ))

@@ -4,7 +4,6 @@ use super::{Finding, Ladder, USELESS, rounded};
 use crate::Result;
 use crate::number::decimal;
 use crate::results::csv::cell;
-use crate::results::file;
 use crate::results::histories::Peak;
 use crate::results::plot::{Curve, Panel, svg};
 use crate::study::quantity::listed;
@@ -90,14 +89,10 @@ fn moved_probes(ladder: &Ladder) -> Vec<&str> {
 
 /// The files; a line that names them.
 pub fn write(series: &Series, ladders: &[Ladder; 2], findings: &[Finding]) -> Result<String> {
-    let write = |ending: &str, content: String| {
-        let path = series.folder.join(format!("converge.{ending}"));
-        file::replace(&path, content.as_bytes()).map(|()| path.display().to_string())
-    };
     let names = [
-        write("csv", csv(ladders, findings))?,
-        write("json", json(ladders, findings))?,
-        write("svg", plot(ladders, findings)?)?,
+        series.write("converge.csv", &csv(ladders, findings))?,
+        series.write("converge.json", &json(ladders, findings))?,
+        series.write("converge.svg", &plot(ladders, findings)?)?,
     ];
     Ok(format!("written: {}\n", names.join(", ")))
 }

@@ -10,16 +10,15 @@ mod report;
 use super::history::{Change, History};
 use super::quantity::Quantity;
 use super::run::{self, Request};
+use super::screen::show_copy;
 use super::series::{self, Member, Series, Variant};
 use crate::model::arrival::{Returns, returns};
 use crate::model::case::{Analysis, Case};
 use crate::model::moving_front::MovingFront;
 use crate::model::units::Time;
 use crate::number::{seconds, short};
-use crate::results::file;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
-use std::io::Write;
 
 /// What the command line asks of the study.
 #[derive(Debug, Clone)]
@@ -92,7 +91,7 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
     let largest = rows.last().map_or(study.start, |r| r.size);
     let not_settled = |table: &str| {
         // the table is a result even where the answer is no
-        let _ = std::io::stdout().write_all(table.as_bytes());
+        show_copy(table);
         Error::NoConvergence(format!(
             "up to {} = {} and {} = {} the quantities still change by more than {} %: let it grow further by --sizes{}",
             options.width,
@@ -143,7 +142,7 @@ impl<'a> Study<'a> {
         let frames = if quantities.iter().any(Quantity::is_ring) { case.frame_interval() } else { case.time.end.0 };
         Ok(Study {
             options,
-            series: Series { request, folder: request.folder(&case).join("domain") },
+            series: Series::new(request, request.folder(&case).join("domain")),
             quantities,
             tolerance,
             until,
@@ -235,11 +234,12 @@ impl<'a> Study<'a> {
     }
 
     fn write(&self, rows: &[Row]) -> Result<String> {
-        let write = |ending: &str, content: String| {
-            let path = self.series.folder.join(format!("domain.{ending}"));
-            file::replace(&path, content.as_bytes()).map(|()| path.display().to_string())
-        };
-        let names = [write("csv", self.csv(rows))?, write("json", self.json(rows))?, write("svg", self.svg(rows)?)?];
+        let write = |name: &str, content: String| self.series.write(name, &content);
+        let names = [
+            write("domain.csv", self.csv(rows))?,
+            write("domain.json", self.json(rows))?,
+            write("domain.svg", self.svg(rows)?)?,
+        ];
         Ok(format!("written: {}\n", names.join(", ")))
     }
 }

@@ -1,5 +1,6 @@
 //! The plan of a sweep: one case, and the values that its keys and the constants of its script take in turn.
 
+use crate::input::{self, Kind};
 use crate::model::case::Unique;
 use crate::{Error, Result};
 use serde::Deserialize;
@@ -47,7 +48,7 @@ impl Plan {
     /// The file cannot be read, is no plan, or varies nothing.
     pub fn read(path: &Path) -> Result<Plan> {
         let place = path.display();
-        let text = std::fs::read_to_string(path).map_err(|e| Error::input(format!("{place}: {e}")))?;
+        let text = input::read_text(path, Kind::Plan).map_err(|e| Error::input(format!("{place}: {e}")))?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         let plan = serde_json::from_str(text).and_then(|Unique(json)| serde_json::from_value(json));
         let plan: Plan = plan.map_err(|e| {

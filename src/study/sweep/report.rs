@@ -5,7 +5,7 @@ use super::job::Failure;
 use super::shelf::Shelf;
 use super::table::{self, Row};
 use crate::study::run::interrupted;
-use crate::study::screen::{Screen, show};
+use crate::study::screen::{Screen, show_copy};
 use crate::{Error, Result};
 use serde_json::json;
 use std::time::{Duration, Instant};
@@ -114,7 +114,10 @@ impl<'a> Report<'a> {
         };
         match error {
             None => Ok(table),
-            Some(error) => show(&table).and(Err(error)),
+            Some(error) => {
+                show_copy(&table);
+                Err(error)
+            }
         }
     }
 }

@@ -1,7 +1,9 @@
 //! The folder of a sweep: the table, and a folder of results a run.
 
 use crate::Result;
-use crate::results::{file, folder};
+use crate::input::{self, Kind};
+use crate::results::folder::claim;
+use crate::results::{file, foreign};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -23,7 +25,7 @@ impl Shelf {
     pub fn refuse_foreign(path: &Path) -> Result<()> {
         match plan_of(path) {
             Some(_) => Ok(()),
-            None => folder::refuse_filled(path, &[], "folder of a sweep"),
+            None => foreign::refuse_filled(path, "folder of a sweep"),
         }
     }
 
@@ -31,10 +33,7 @@ impl Shelf {
     pub fn open(path: &Path, plan: &Path) -> Result<Shelf> {
         Shelf::refuse_foreign(path)?;
         file::create_folder(path)?;
-        let lock = folder::lock(path)?;
-        if lock.is_some() {
-            file::remove_parts(path);
-        }
+        let lock = claim(path)?;
         let plan = std::path::absolute(plan).unwrap_or_else(|_| plan.into()).display().to_string();
         let before = plan_of(path).filter(|before| *before != plan).map(|before| {
             format!(
@@ -58,6 +57,6 @@ impl Shelf {
 
 /// The plan that the folder is of.
 fn plan_of(folder: &Path) -> Option<String> {
-    let record: Value = serde_json::from_slice(&std::fs::read(folder.join(RECORD)).ok()?).ok()?;
+    let record: Value = serde_json::from_slice(&input::read(&folder.join(RECORD), Kind::Record).ok()?).ok()?;
     record["coralpipe"].as_str().and(record["plan"].as_str()).map(String::from)
 }
