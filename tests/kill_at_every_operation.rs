@@ -1,8 +1,8 @@
 //! A kill at any operation on files, and a disk that is full from any operation on: what was valid stays valid, the
 //! same command succeeds afterwards, gives what an undisturbed one gives, and leaves nothing behind.
 //!
-//! `tests/shim/faults.c` strikes the program at its N-th operation; here N goes up from 1 until the program ends by
-//! itself. By default every N-th of some is tried; `-- --ignored` tries each.
+//! `tests/shim/faults.c` strikes the program at its N-th operation; here N goes up until the program ends by itself, in
+//! steps of seven, and with `-- --ignored` in steps of one.
 #![cfg(target_os = "linux")]
 
 mod program;
@@ -91,6 +91,15 @@ fn assert_series_open(found: &BTreeMap<String, Vec<u8>>, when: &str) {
     }
 }
 
+struct Scene<'a> {
+    name: &'static str,
+    command: &'static str,
+    /// of results, in `output/`, that hold some before the command
+    folders: &'static [&'static str],
+    /// makes what is there before the command
+    prepare: &'a dyn Fn(&Bench),
+}
+
 /// A folder as it is before the command, the command, and the folder as it is after it.
 struct Trial {
     bench: Bench,
@@ -99,19 +108,12 @@ struct Trial {
     before: BTreeMap<String, Vec<u8>>,
     after: BTreeMap<String, Vec<u8>>,
     /// folders of results in `output/`
-    folders: Vec<&'static str>,
+    folders: &'static [&'static str],
     fault: Fault,
 }
 
 impl Trial {
-    /// `prepare` makes what is there before the command.
-    fn new(
-        name: &str,
-        command: &'static str,
-        folders: &[&'static str],
-        fault: Fault,
-        prepare: &dyn Fn(&Bench),
-    ) -> Trial {
+    fn new(Scene { name, command, folders, prepare }: Scene, fault: Fault) -> Trial {
         let bench = Bench::new(&format!("{name}-{fault:?}"));
         prepare(&bench);
         copy(&bench.folder, &bench.folder.with_extension("before"));
@@ -119,7 +121,7 @@ impl Trial {
         let outcome = bench.run_line(command);
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
         let after = files(&bench.folder);
-        Trial { bench, command, before, after, folders: folders.to_vec(), fault }
+        Trial { bench, command, before, after, folders, fault }
     }
 
     /// Strikes at the N-th operation; false if the program ended before it.
@@ -179,7 +181,7 @@ impl Trial {
         if links {
             assert_series_open(&found, when);
         }
-        for folder in &self.folders {
+        for folder in self.folders {
             let in_previous = below(&self.before, &format!("{folder}/previous/"));
             let old = if in_previous.is_empty() { below(&self.before, &format!("{folder}/")) } else { in_previous };
             let new = below(&self.after, &format!("output/{folder}/"));
@@ -243,13 +245,13 @@ fn try_all(fault: Fault, every: usize) {
     if shim().is_none() {
         return;
     }
+    const RUNS: [&str; 3] = ["plan/peak50kPa", "plan/peak60kPa", "plan/peak70kPa"];
     const RUN: &str = "run block.json --quiet --set time.end=3ms";
     let earlier = |bench: &Bench| succeed(bench, "run block.json --quiet --set time.end=2ms");
     let failed = |bench: &Bench| {
         earlier(bench);
         assert_eq!(failing_run(bench).code, Some(3));
     };
-    let new = |_: &Bench| {};
     let plan = |bench: &Bench, end: &str| {
         let peaks = r#""loads.top.pressure.peak": ["50 kPa", "60 kPa", "70 kPa"]"#;
         bench.write("plan.json", format!(r#"{{"case": "block.json", "frames": true, "set": {{{peaks}}}}}"#));
@@ -260,17 +262,16 @@ fn try_all(fault: Fault, every: usize) {
         succeed(bench, "sweep plan.json --quiet");
         plan(bench, "2 ms");
     };
-    let sweep = "sweep plan.json --quiet";
-    let peaks = ["plan/peak50kPa", "plan/peak60kPa", "plan/peak70kPa"];
-    let trials: [(&str, &'static str, &[&'static str], &dyn Fn(&Bench)); 5] = [
-        ("over", RUN, &["block"], &earlier),
-        ("failed", RUN, &["block"], &failed),
-        ("first", RUN, &[], &new),
-        ("sweep", sweep, &peaks, &swept),
-        ("modes", "modes block.json -n 2", &[], &new),
+    let scenes = [
+        Scene { name: "over", command: RUN, folders: &["block"], prepare: &earlier },
+        Scene { name: "failed", command: RUN, folders: &["block"], prepare: &failed },
+        Scene { name: "first", command: RUN, folders: &[], prepare: &|_| {} },
+        Scene { name: "sweep", command: "sweep plan.json --quiet", folders: &RUNS, prepare: &swept },
+        Scene { name: "modes", command: "modes block.json -n 2", folders: &[], prepare: &|_| {} },
     ];
-    for (i, (name, command, folders, prepare)) in trials.into_iter().enumerate() {
-        let strikes = Trial::new(name, command, folders, fault, prepare).run(1 + i % every, every);
+    for (i, scene) in scenes.into_iter().enumerate() {
+        let name = scene.name;
+        let strikes = Trial::new(scene, fault).run(1 + i % every, every);
         assert!(strikes >= 10 / every, "{name}: {strikes}");
     }
 }
