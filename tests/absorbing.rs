@@ -16,12 +16,16 @@ use serde_json::{Value, json};
 use std::f64::consts::PI;
 use support::{Drawing, node_at, peak, run_twin_pipes};
 
-/// Ground of rectangles between the given x and y, from the left and from the bottom up: `ground_1` below the middle
-/// row,
-/// `ground_2` above it; curves base, surface, left, right.
+/// Ground of rectangles (or two triangles each) between the given x and y, from the left and from the bottom up:
+/// `ground_1` below the middle row, `ground_2` above it; curves base, surface, left, right.
 fn ground(shape: Shape, xs: &[f64], ys: &[f64]) -> Mesh {
+    ground_on(|_| "base", shape, xs, ys)
+}
+
+/// The same on a base whose columns lie on curves of the given names.
+fn ground_on(base: impl Fn(usize) -> &'static str, shape: Shape, xs: &[f64], ys: &[f64]) -> Mesh {
     let mut drawing = Drawing::default();
-    let second_order = matches!(shape, Shape::Quad8);
+    let second_order = matches!(shape, Shape::Quad8 | Shape::Tri6);
     let mut places = std::collections::BTreeMap::new();
     let mut node = |drawing: &mut Drawing, at: [f64; 2]| {
         let key = at.map(|c| (c * 1e9).round() as i64);
@@ -39,19 +43,31 @@ fn ground(shape: Shape, xs: &[f64], ys: &[f64]) -> Mesh {
         for (j, y) in ys.windows(2).enumerate() {
             let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
             let on_border = [j == 0, i + 2 == xs.len(), j + 2 == ys.len(), i == 0];
-            let names = ["base", "right", "surface", "left"];
+            let names = [base(i), "right", "surface", "left"];
             let sides: Vec<Vec<usize>> = (0..4)
                 .map(|k| {
                     let group = if on_border[k] { names[k] } else { "" };
                     side(&mut drawing, group, [corners[k], corners[(k + 1) % 4]])
                 })
                 .collect();
-            let nodes: Vec<usize> =
-                (0..sides[0].len() - 1).flat_map(|k| sides.iter().map(move |s| s[[0, 2][k]])).collect();
-            drawing.cell(if j < ys.len() / 2 { "ground_1" } else { "ground_2" }, shape, &nodes);
+            let layer = if j < ys.len() / 2 { "ground_1" } else { "ground_2" };
+            let [bottom, right, top, left] = [0, 1, 2, 3].map(|k| sides[k].as_slice());
+            if matches!(shape, Shape::Tri3 | Shape::Tri6) {
+                let there = side(&mut drawing, "", [corners[0], corners[2]]);
+                let back: Vec<usize> = [1, 0].iter().map(|&k| there[k]).chain(there.get(2).copied()).collect();
+                drawing.cell(layer, shape, &around(&[bottom, right, &back]));
+                drawing.cell(layer, shape, &around(&[&there, top, left]));
+            } else {
+                drawing.cell(layer, shape, &around(&[bottom, right, top, left]));
+            }
         }
     }
     drawing.mesh()
+}
+
+/// A face's nodes from its sides: corners, then mid-side nodes.
+fn around(sides: &[&[usize]]) -> Vec<usize> {
+    (0..sides[0].len() - 1).flat_map(|k| sides.iter().map(move |side| side[[0, 2][k]])).collect()
 }
 
 const HEIGHTS: [f64; 9] = [-15., -13.2, -11., -9.1, -7., -5.5, -3., -1.3, 0.];
@@ -715,4 +731,174 @@ fn the_free_field_feels_a_front_when_it_reaches_the_side() {
     let pairs = a.iter().zip(&b).flat_map(|(a, b)| a.as_flattened().iter().zip(b.as_flattened()));
     let (difference, largest) = pairs.fold((0f64, 0f64), |(d, m), (a, b)| (d.max((a - b).abs()), m.max(a.abs())));
     assert!(difference < 5e-6 * largest, "{difference:.1e} of {largest:.1e}");
+}
+
+/// A mesh drawn in another unit of length: every length times L, with mass and time as they were, so that moduli and
+/// pressures are divided by L and densities by L^3. Nothing in a result may know the unit, also where the lumped mass of
+/// 8-node quadrilaterals carries a wave unevenly across an element. 1e-9 of the peak: the round-off of 240 steps, 1e-11.
+#[test]
+fn free_field_sides_do_not_depend_on_the_unit_of_length() {
+    let wide = [0., 1.5, 4., 6.];
+    for shape in [Shape::Tri3, Shape::Quad4, Shape::Tri6, Shape::Quad8] {
+        for mass in ["consistent", "lumped"] {
+            let of_unit = |l: f64| {
+                let [xs, ys] = [&wide[..], &HEIGHTS].map(|places| places.iter().map(|x| l * x).collect::<Vec<f64>>());
+                let layer = |young: f64, nu: f64, rho: f64| json!({ "young": young / l, "poisson": nu, "density": rho / l.powi(3) });
+                let json = case(&json!({
+                    "materials": { "ground_1": layer(863e6, 0.27, 2700.), "ground_2": layer(183e6, 0.46, 2200.) },
+                    "boundaries": { "base": "viscous", "left": "free_field", "right": "free_field" },
+                    "loads": { "surface": { "pressure": { "law": "linear", "peak": 1e5 / l, "duration": "20 ms" } } },
+                    "mass": mass,
+                }));
+                let (rows, _) = motion(&json, &ground(shape, &xs, &ys), DAMPED);
+                rows.into_iter().flatten().flatten().map(|x| x / l).collect::<Vec<f64>>()
+            };
+            let metres = of_unit(1.);
+            for l in [1e3, 1e-3] {
+                let difference: Vec<f64> = of_unit(l).iter().zip(&metres).map(|(a, b)| a - b).collect();
+                let error = peak(&difference) / peak(&metres);
+                println!("{shape:?}, {mass}, lengths times {l}: {error:.1e}");
+                assert!(error < 1e-9, "{shape:?}, {mass}, lengths times {l}: {error:.1e}");
+            }
+        }
+    }
+}
+
+/// Columns of equal width are mirrored in each line between them, so each moves as one column between rollers, lumped
+/// 8-node quadrilaterals too, whose motion is uneven across; and the free field's strip has their width and its own lateral
+/// forces. 1e-10 of the peak is round-off; a column of half the width moves otherwise by a tenth.
+#[test]
+fn equal_columns_of_lumped_quad8_keep_their_own_plane_wave() {
+    let lumped =
+        json!({ "mass": "lumped", "boundaries": { "base": "viscous", "left": "free_field", "right": "free_field" } });
+    let rollers = json!({ "boundaries": { "base": "viscous" }, "supports": { "left": ["x"], "right": ["x"] } });
+    let mesh = ground(Shape::Quad8, &[0., 2., 4., 6.], &HEIGHTS);
+    let (found, _) = motion(&case(&lumped), &mesh, DAMPED);
+    let error = |width: f64| {
+        let strip = ground(Shape::Quad8, &[0., width], &HEIGHTS);
+        let (column, _) = motion(&with(&case(&lumped), rollers.clone()), &strip, DAMPED);
+        // the edge of the middle column, at 2 m
+        let edge = |n: &usize| strip.points[*n][0] == 0.;
+        let pairs: Vec<(usize, usize)> =
+            (0..strip.points.len()).filter(edge).map(|n| (node_at(&mesh, [2., strip.points[n][1]]), n)).collect();
+        let differences = found.iter().zip(&column).flat_map(|(row, exact)| {
+            pairs.iter().map(|&(n, s)| (row[n][0] - exact[s][0]).hypot(row[n][1] - exact[s][1]))
+        });
+        let largest = column.iter().flat_map(|row| &row[..strip.points.len()]).fold(0f64, |m, u| m.max(u[1].abs()));
+        differences.fold(0., f64::max) / largest
+    };
+    let [own, half] = [2., 1.].map(error);
+    println!("against a column of the elements' width {own:.1e}, of half of it {half:.1e}");
+    assert!(own < 1e-10 && half > 1e-2, "{own:.1e} {half:.1e}");
+}
+
+/// One ground of 10 m whose base lets waves out and is pushed along or pressed for 0.1 s: half a sine of 20 Pa.
+fn pushed_from_below(load: &str, held: &str) -> Value {
+    let layer = json!({ "young": 1e7, "poisson": 0.2, "density": 1855 });
+    let mut push = json!({ "law": "half_sine", "peak": 20, "duration": 0.1 });
+    if load == "traction" {
+        push["direction"] = json!([1, 0]);
+    }
+    json!({
+        "materials": { "ground_1": layer, "ground_2": layer },
+        "supports": { "left": [held], "right": [held] }, "boundaries": { "base": "viscous" },
+        "loads": { "base": { load: push } }, "time": { "step": 0.002, "end": 2 },
+    })
+}
+
+/// A wave sent in from below: the dashpots take as much of the load's impulse as they must to end at rest, so every node
+/// ends at impulse / (rho c), 1.448e-5 m for S. 2e-3: the trapezium rule over 50 steps of a half sine misses 3.3e-4, and the
+/// kinks of its ends leave waves as short as an element, 1e-3 of it with T3.
+#[test]
+fn a_load_on_a_viscous_base_sends_a_plane_wave_in_whatever_the_number_of_elements() {
+    let impulse = 20. * 0.1 * 2. / PI;
+    let [c_p, c_s] = [1e7 * 0.8 / (1.2 * 0.6), 1e7 / 2.4].map(|modulus| (modulus / 1855f64).sqrt());
+    assert!((impulse / (1855. * c_s) - 1.448e-5).abs() < 1e-8);
+    let ys: Vec<f64> = (-10..=0).map(f64::from).collect();
+    for (load, held, axis, speed) in [("traction", "y", 0, c_s), ("pressure", "x", 1, c_p)] {
+        for shape in [Shape::Tri3, Shape::Quad4, Shape::Tri6, Shape::Quad8] {
+            for xs in [&[0., 1.][..], &[0., 1., 2.], &[0., 0.7, 2., 3.5, 4., 6.]] {
+                let (rows, _) = motion(&pushed_from_below(load, held), &ground(shape, xs, &ys), Rayleigh::default());
+                let nodes = rows[0].len() / 2;
+                for u in &rows.last().unwrap()[..nodes] {
+                    let end = u[axis] * 1855. * speed / impulse;
+                    assert!((end - 1.).abs() < 2e-3, "{load}, {shape:?}, {} columns: {end}", xs.len() - 1);
+                }
+            }
+        }
+    }
+}
+
+/// The same wave into a base of two curves, each with its own boundary and load; and a base that is pushed over a part of it.
+#[test]
+fn a_viscous_base_may_be_made_of_several_curves_and_be_loaded_in_part() {
+    let ys: Vec<f64> = (-10..=0).map(f64::from).collect();
+    let halves = |i: usize| if i < 2 { "base_1" } else { "base_2" };
+    for shape in [Shape::Quad4, Shape::Quad8] {
+        let mesh = ground_on(halves, shape, &[0., 1., 2., 3., 4.], &ys);
+        let mut json = pushed_from_below("traction", "y");
+        let push = json["loads"]["base"].take();
+        json["boundaries"] = json!({ "base_1": "viscous", "base_2": "viscous" });
+        json["loads"] = json!({ "base_1": push, "base_2": push });
+        let (rows, _) = motion(&json, &mesh, Rayleigh::default());
+        let impulse_over_rho_c = 20. * 0.1 * 2. / PI / (1855. * (1e7 / 2.4 / 1855f64).sqrt());
+        let ends = &rows.last().unwrap()[..mesh.points.len()];
+        assert!(ends.iter().all(|u| (u[0] / impulse_over_rho_c - 1.).abs() < 1e-3), "{shape:?}");
+
+        json["loads"] = json!({ "base_1": push });
+        support::model(&json, &mesh);
+    }
+}
+
+/// Curves that bend less than 45 degrees from line to line: a sloping base, and one along an arc, of first and second order.
+#[test]
+fn a_traction_along_a_sloping_or_curved_viscous_base_is_no_drain() {
+    for second_order in [false, true] {
+        for bend in [|x: f64| 0.5 * x, |x: f64| -(25. - x * x).sqrt()] {
+            let mut drawing = Drawing::default();
+            let xs = [-3., -1., 1., 3.];
+            let mut row = |y: &dyn Fn(f64) -> f64| -> Vec<[usize; 2]> {
+                let mut at = |x: f64| drawing.node([x, y(x)]);
+                xs.iter().map(|&x| [at(x), if second_order { at(x + 1.) } else { 0 }]).collect()
+            };
+            let (low, high) = (row(&|x| bend(x) - 6.), row(&|_| 0.));
+            let mut middle = |i: usize| if second_order { drawing.node([xs[i], (bend(xs[i]) - 6.) / 2.]) } else { 0 };
+            let upright: Vec<usize> = (0..4).map(&mut middle).collect();
+            for i in 0..3 {
+                let (line, face) =
+                    if second_order { (Shape::Line3, Shape::Quad8) } else { (Shape::Line2, Shape::Quad4) };
+                let take = |nodes: &[usize], count: usize| nodes[..count].to_vec();
+                let base = take(&[low[i][0], low[i + 1][0], low[i][1]], if second_order { 3 } else { 2 });
+                let corners = [low[i][0], low[i + 1][0], high[i + 1][0], high[i][0]];
+                let middles = [low[i][1], upright[i + 1], high[i][1], upright[i]];
+                let nodes = take(&[corners, middles].concat(), if second_order { 8 } else { 4 });
+                drawing.cell("base", line, &base);
+                drawing.cell("ground_1", face, &nodes);
+            }
+            let layer = json!({ "young": 1e7, "poisson": 0.2, "density": 1855 });
+            let push = json!({ "law": "half_sine", "direction": [1, 0], "peak": 20, "duration": 0.1 });
+            let json = json!({
+                "materials": { "ground_1": layer }, "boundaries": { "base": "viscous" },
+                "loads": { "base": { "traction": push } }, "time": { "step": 0.002, "end": 0.01 },
+            });
+            let model = support::model(&json, &drawing.mesh());
+            assert_eq!(model.absorbers.len(), 3);
+        }
+    }
+}
+
+/// A wave that runs up between viscous sides is drained by them, whether it comes from the base or from the surface.
+#[test]
+fn a_wave_along_viscous_sides_is_refused_wherever_it_comes_from() {
+    let mesh = ground(Shape::Quad4, &[0., 1., 2.], &HEIGHTS);
+    for loaded in ["base", "surface"] {
+        let boundaries = match loaded {
+            "base" => json!({ "base": "viscous", "left": "viscous", "right": "viscous" }),
+            _ => json!({ "left": "viscous", "right": "viscous" }),
+        };
+        let press = json!({ loaded: { "pressure": { "law": "linear", "peak": 20, "duration": 0.1 } } });
+        let json = case(&json!({ "boundaries": boundaries, "loads": press }));
+        let refusal = Model::new(&support::case(&json), &mesh, false).unwrap_err().to_string();
+        assert!(refusal.contains("pushes along it where the two meet") && refusal.contains(loaded), "{refusal}");
+    }
 }

@@ -93,7 +93,8 @@ pub fn loaded(case: &Case, model: &Model) -> Option<String> {
 }
 
 /// Where a load pushes along a viscous curve, the wave it makes runs along the dashpots: a load on a curve that ends
-/// there, or on the ground right behind an upright one.
+/// there, or on the ground right behind an upright one. The wave of a loaded line leaves it at right angles, so a curve
+/// that goes on in the line's own direction is not on its way: a traction along a base sends an S wave away from all of it.
 fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Load]) -> Result<()> {
     let along = line.tangent(mesh);
     for load in loads {
@@ -103,7 +104,8 @@ fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Lo
                 ends_at(line, lines).map(|(loaded, corner)| (inwards(loaded), corner)).collect()
             }
             Target::Traction { lines, direction } => {
-                ends_at(line, lines).map(|(_, corner)| (*direction, corner)).collect()
+                let across = ends_at(line, lines).filter(|(loaded, _)| !goes_on(along, loaded.tangent(mesh)));
+                across.map(|(_, corner)| (*direction, corner)).collect()
             }
             Target::BodyForce { cells, direction } if cells.contains(&face) && along[1].abs() > along[0].abs() => {
                 vec![(*direction, line.nodes[0])]
@@ -126,9 +128,14 @@ fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Lo
     Ok(())
 }
 
+/// Two lines that meet turn by less than 45 degrees.
+fn goes_on(along: [f64; 2], other: [f64; 2]) -> bool {
+    (along[0] * other[0] + along[1] * other[1]).abs() > (along[0] * other[1] - along[1] * other[0]).abs()
+}
+
 /// Those of the loaded lines that share a node with a boundary's line without being it, and the node.
 fn ends_at<'a>(line: &'a Border, loaded: &'a [Border]) -> impl Iterator<Item = (&'a Border, usize)> {
-    let others = loaded.iter().filter(|l| l.nodes != line.nodes);
+    let others = loaded.iter().filter(|l| edge(&l.nodes) != edge(&line.nodes));
     others.filter_map(|l| Some((l, *l.nodes.iter().find(|n| line.nodes.contains(n))?)))
 }
 

@@ -23,7 +23,7 @@ pub struct FreeField {
     pub twin: BTreeMap<usize, usize>,
     /// for each node of the column the node of the side at its height
     pub origin: Vec<usize>,
-    /// a strip 1 m wide that moves up and down only
+    /// a strip that moves up and down only, as wide as the elements behind the side
     pub column: Model,
 }
 
@@ -123,7 +123,7 @@ fn free_field(name: &str, model: &Model, lines: Vec<Absorber>, outward: f64) -> 
         }
     }
     refuse_part(name, &model.mesh, &lines)?;
-    let strip = Strip::beside(&lines, &model.mesh);
+    let strip = Strip::beside(&lines, &model.mesh, mean_width(&lines, &model.mesh));
     let column = column(name, model, &lines, &strip)?;
     Ok(FreeField { lines, outward, twin: strip.twin, origin: strip.origin, column })
 }
@@ -150,6 +150,23 @@ fn refuse_part(name: &str, mesh: &Mesh, lines: &[Absorber]) -> Result<()> {
     }
 }
 
+/// Mean width of the elements behind the lines: their area over the side's height [m].
+///
+/// The motion of the strip depends on its width only where mid-side nodes have a lumped mass, which does not carry a plane
+/// wave evenly across an element. With the elements' own width a mesh of equal columns has the strip's own, uneven motion.
+fn mean_width(lines: &[Absorber], mesh: &Mesh) -> f64 {
+    let area = |line: &Absorber| {
+        let corners: Vec<[f64; 2]> = mesh.cells[line.face].corners().iter().map(|&n| mesh.points[n]).collect();
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>().abs() / 2.
+    };
+    let height = |line: &Absorber| {
+        let [top, bottom] = ends(&line.line, mesh).map(|n| mesh.points[n][1]);
+        top - bottom
+    };
+    lines.iter().map(area).sum::<f64>() / lines.iter().map(height).sum::<f64>()
+}
+
 /// The column's mesh: a quadrilateral beside each line of the side.
 struct Strip {
     points: Vec<[f64; 2]>,
@@ -164,7 +181,7 @@ struct Strip {
 
 impl Strip {
     /// Nodes in threes at the height of each corner (left, right, middle), in twos at that of each mid-side node.
-    fn beside(lines: &[Absorber], mesh: &Mesh) -> Strip {
+    fn beside(lines: &[Absorber], mesh: &Mesh, width: f64) -> Strip {
         let (mut points, mut origin, mut twin) = (Vec::new(), Vec::new(), BTreeMap::new());
         let second_order = lines[0].line.shape == Shape::Line3;
         let mut row = |node: usize, places: &[f64]| {
@@ -173,7 +190,7 @@ impl Strip {
             origin.extend(places.iter().map(|_| node));
             points.len() - places.len()
         };
-        let corner: &[f64] = if second_order { &[0., 1., 0.5] } else { &[0., 1.] };
+        let corner: &[f64] = if second_order { &[0., width, width / 2.] } else { &[0., width] };
         let mut above = row(ends(&lines[0].line, mesh)[0], corner);
         let border = |line: [usize; 3]| match second_order {
             true => Border { shape: Shape::Line3, nodes: line.to_vec() },
@@ -182,7 +199,7 @@ impl Strip {
         let top = border([above + 1, above, above + 2]);
         let mut faces = Vec::new();
         for Absorber { line, .. } in lines {
-            let middle = second_order.then(|| row(line.nodes[2], &[0., 1.]));
+            let middle = second_order.then(|| row(line.nodes[2], &[0., width]));
             let below = row(ends(line, mesh)[1], corner);
             let mut nodes = vec![below, below + 1, above + 1, above];
             nodes.extend(middle.iter().flat_map(|m| [below + 2, m + 1, above + 2, *m]));

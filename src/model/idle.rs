@@ -6,6 +6,9 @@ use super::mesh::Shape;
 use super::resolve::{Load, Model};
 use crate::number::seconds;
 
+/// What natural modes do not need.
+pub const NOTHING_ACTS: &str = "nothing loads or moves the model: there is no load, no gravity and no initial motion";
+
 /// A sentence for each.
 pub fn idle(case: &Case, model: &Model) -> Vec<String> {
     let mut idle = Vec::new();
@@ -25,7 +28,7 @@ pub fn idle(case: &Case, model: &Model) -> Vec<String> {
     let end = model.time.step * model.time.steps as f64;
     idle.extend(model.loads.iter().filter_map(|load| never_acts(load, end)));
     if nothing_acts(model) {
-        idle.push("nothing loads or moves the model: there is no load, no gravity and no initial motion".into());
+        idle.push(NOTHING_ACTS.into());
     }
     for name in case.initial.keys() {
         if case.json()["initial"][name].as_object().is_some_and(|keys| keys.is_empty()) {

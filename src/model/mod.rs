@@ -15,6 +15,7 @@ pub mod mesh;
 pub mod moving_front;
 pub mod msh;
 pub mod openings;
+mod overflow;
 mod plane;
 pub mod probes;
 pub mod quality;

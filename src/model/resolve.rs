@@ -9,6 +9,7 @@ use super::loads::loads;
 use super::mesh::Mesh;
 use super::moving_front::MovingFront;
 use super::openings::Openings;
+use super::overflow::refuse_overflow;
 use super::probes::{NodeProbe, probes};
 use super::sampled::unseen;
 use super::split::{Joint, Opened, Pair, Seam};
@@ -148,6 +149,7 @@ impl Model {
             mesh,
             warnings,
         };
+        refuse_overflow(case, &model)?;
         match case.analysis {
             Analysis::Static => Ok(model.held()),
             Analysis::Dynamic => {

@@ -18,7 +18,7 @@ pub fn unseen(load: &Load, time: &TimeGrid) -> Option<String> {
     let [own, size] = polyline::impulse(&points);
     let last = points.last()?[0];
     let error = |step: f64| (seen(&load.pulse, step, last) - own) / size;
-    let resolved = size <= 0. || size.is_nan() || last / time.step > MANY;
+    let resolved = size <= 0. || !size.is_finite() || last / time.step > MANY;
     if resolved || error(time.step).abs() <= UNSEEN[0] {
         return None;
     }

@@ -87,6 +87,30 @@ impl Pulse {
         }
     }
 
+    /// Its greatest magnitude, infinite where a number of it is not finite.
+    pub fn largest(&self) -> f64 {
+        match self {
+            Pulse::Linear { peak, .. } | Pulse::Step { peak } | Pulse::Ramp { peak, .. } => magnitude(&[*peak]),
+            Pulse::HalfSine { peak, .. } => magnitude(&[*peak]),
+            Pulse::Friedlander { peak, negative, .. } => magnitude(&[*peak, negative.map_or(0.0, |n| n.peak)]),
+            Pulse::Table { values, .. } => magnitude(values),
+            Pulse::Delayed { law, .. } => law.largest(),
+        }
+    }
+
+    /// The last time at which the law changes its course [s].
+    pub fn last_time(&self) -> f64 {
+        match self {
+            Pulse::Step { .. } => 0.0,
+            Pulse::Linear { duration, .. } | Pulse::Ramp { duration, .. } | Pulse::HalfSine { duration, .. } => {
+                *duration
+            }
+            Pulse::Friedlander { duration, negative, .. } => duration + negative.map_or(0.0, |n| n.duration),
+            Pulse::Table { times, .. } => times.last().copied().unwrap_or(0.0),
+            Pulse::Delayed { law, start, rise } => start + rise + law.last_time(),
+        }
+    }
+
     /// Whether it is zero at all times.
     pub fn is_zero(&self) -> bool {
         match self {
@@ -146,6 +170,10 @@ impl Suction {
         let s = (t / self.duration).clamp(0.0, 1.0);
         -6.75 * self.peak * s * (1.0 - s).powi(2)
     }
+}
+
+fn magnitude(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, v| if v.is_finite() { v.abs().max(largest) } else { f64::INFINITY })
 }
 
 /// p(t) = p_i + (p_{i+1} - p_i) (t - t_i) / (t_{i+1} - t_i) for t_i <= t < t_{i+1}

@@ -9,6 +9,7 @@
 //! the first imbalance.
 
 use super::system::{Rayleigh, State, System};
+use crate::model::case::Analysis;
 use crate::sparse::multiply;
 use crate::sparse::vector::dot;
 use sprs::CsMat;
@@ -103,18 +104,26 @@ impl Ledger {
         }
     }
 
-    /// Says where the joints' bookkeeping is more than a small part of what moves: they chatter, and peaks are not to
-    /// be trusted.
-    pub fn warning(&self) -> Option<String> {
+    /// Says where the joints' bookkeeping is more than a small part of what is stored. In motion joints chatter, and peaks
+    /// are not to be trusted. In statics a body slid, or joints opened or closed, between two load steps, whose forces do
+    /// not give the work of what lies between them.
+    pub fn warning(&self, analysis: Analysis) -> Option<String> {
         let share = self.now.contact / self.peak;
-        (self.peak > 0. && share.abs() > SUSPICIOUS).then(|| {
-            format!(
-                "joints that open and close within steps have {} energy, {:.1} % of the largest stored: take \
+        let percent = 100. * share.abs();
+        let sentence = match analysis {
+            Analysis::Dynamic => format!(
+                "joints that open and close within steps have {} energy, {percent:.1} % of the largest stored: take \
                  time.hht, time.energy_tolerance, damping, or a smaller time.step",
                 if share < 0. { "made" } else { "lost" },
-                100. * share.abs()
-            )
-        })
+            ),
+            Analysis::Static => format!(
+                "{} between two load steps: the energies are sums over the steps, and {percent:.1} % of the largest stored is \
+                 unaccounted for; every step is in equilibrium, but friction depends on the path, so take smaller load steps \
+                 (time.step) to follow it",
+                if self.now.friction > 0. { "a body slid" } else { "joints opened or closed" },
+            ),
+        };
+        (self.peak > 0. && share.abs() > SUSPICIOUS).then_some(sentence)
     }
 
     /// Says where the residual is more than round-off, for integrators that leave nothing else in it: then numbers

@@ -7,7 +7,7 @@
 //! those of the column are forces known before the model's step, since the column knows nothing of the model. Each rho
 //! c v comes with its share of Rayleigh damping: see [`System::with_damping`].
 
-use super::assembly::{corners, dashpot_block};
+use super::assembly::{corners, dashpot_block, stiffness_of_face};
 use super::system::{Rayleigh, State, System};
 use super::unknowns::Unknowns;
 use super::unsettled::{Place, Unsettled};
@@ -15,8 +15,6 @@ use crate::Result;
 use crate::model::absorbing::Absorber;
 use crate::model::free_field::FreeField;
 use crate::model::resolve::Model;
-use crate::physics::element;
-use crate::physics::shape::Shape;
 use crate::sparse::{Orders, Symbolic, multiply};
 use sprs::{CsMat, TriMat};
 use std::sync::Arc;
@@ -43,11 +41,16 @@ impl Column {
         own.sort_unstable();
         let size = (own.len(), system.unknowns.count);
         let (mut pressure, mut drag) = (TriMat::new(size), TriMat::new(size));
-        for (a, b, axis, value) in side.lines.iter().flat_map(|line| couplings(model, line, side.outward)) {
-            let matrix = if axis == 0 { &mut pressure } else { &mut drag };
-            if let (Some(i), Some(j)) = (unknowns.of(a, axis), system.unknowns.of(side.twin[&b], 1)) {
-                let row = own.binary_search(&i).expect("the unknowns of all nodes of the side are there");
-                matrix.add_triplet(row, j, value);
+        let row =
+            |unknown: usize| own.binary_search(&unknown).expect("the unknowns of all nodes of the side are there");
+        for (a, b, value) in lateral_forces(side) {
+            if let (Some(i), Some(j)) = (unknowns.of(a, 0), system.unknowns.of(b, 1)) {
+                pressure.add_triplet(row(i), j, value);
+            }
+        }
+        for (a, b, value) in side.lines.iter().flat_map(|line| shear_dashpots(model, line)) {
+            if let (Some(i), Some(j)) = (unknowns.of(a, 1), system.unknowns.of(side.twin[&b], 1)) {
+                drag.add_triplet(row(i), j, value);
             }
         }
         Ok(Column {
@@ -106,30 +109,35 @@ impl Column {
     }
 }
 
-/// (a, b, axis, value) for nodes a, b of a line: along x n_x lambda of the integral of N_a dN_b/dy ds, along y rho c_s
-/// of that of N_a N_b ds.
-fn couplings(
-    model: &Model,
-    Absorber { line, material, .. }: &Absorber,
-    outward: f64,
-) -> Vec<(usize, usize, usize, f64)> {
-    let at = corners(model, &line.nodes);
-    let lambda = material.oedometric_modulus() - 2. * material.shear_modulus();
-    let z_s = material.density * material.s_speed();
+/// (a, b, value) for a node a of the side and a node b of the column: the force on a along x per displacement of b along
+/// y [N/m], n_x times the integral of N_a s_xx over the side.
+///
+/// The strip's left edge is held along x, and its nodal forces there are minus that integral: so what the side feels is in
+/// equilibrium with the strip's own elements, also where their motion is uneven across.
+fn lateral_forces(side: &FreeField) -> Vec<(usize, usize, f64)> {
     let mut found = Vec::new();
-    for (a, &node_a) in line.nodes.iter().enumerate() {
-        for (b, &node_b) in line.nodes.iter().enumerate() {
-            let along_y = dashpot_block(&at, line.shape, [0., z_s], a, b)[1][1];
-            let upwards = (at[1][1] - at[0][1]).signum();
-            found.push((node_a, node_b, 0, outward * lambda * upwards * slope(line.shape, a, b)));
-            found.push((node_a, node_b, 1, along_y));
+    for (cell, material) in side.column.faces() {
+        let k = stiffness_of_face(&side.column, cell, material);
+        let nodes = &side.column.mesh.cells[cell].nodes;
+        let at_edge = |&(_, node): &(usize, &usize)| side.twin[&side.origin[*node]] == *node;
+        for (a, node_a) in nodes.iter().enumerate().filter(at_edge) {
+            for (b, &node_b) in nodes.iter().enumerate() {
+                found.push((side.origin[*node_a], node_b, -side.outward * k[(2 * a, 2 * b + 1)]));
+            }
         }
     }
     found
 }
 
-/// Integral of N_a dN_b/dr dr over a line; times the sign of dy/dr it is that of N_a dN_b/dy ds.
-fn slope(shape: Shape, a: usize, b: usize) -> f64 {
-    let at = |r: f64| shape.functions([r, 0.]);
-    element::gauss_3().into_iter().map(|(r, weight)| weight * at(r)[a].0 * at(r)[b].1[0]).sum()
+/// (a, b, value) for nodes a, b of a line: rho c_s times the integral of N_a N_b ds [N s/m].
+fn shear_dashpots(model: &Model, Absorber { line, material, .. }: &Absorber) -> Vec<(usize, usize, f64)> {
+    let at = corners(model, &line.nodes);
+    let z_s = material.density * material.s_speed();
+    let mut found = Vec::new();
+    for (a, &node_a) in line.nodes.iter().enumerate() {
+        for (b, &node_b) in line.nodes.iter().enumerate() {
+            found.push((node_a, node_b, dashpot_block(&at, line.shape, [0., z_s], a, b)[1][1]));
+        }
+    }
+    found
 }

@@ -4,6 +4,7 @@ use super::bulk;
 use super::damping;
 use super::loads;
 use super::mesh_report::{self, counts, groups, shapes};
+use super::overflow::refuse_overflow;
 use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use crate::model::case::{Analysis, Boundary, Case};
@@ -37,7 +38,9 @@ pub fn command(request: &Request) -> Result<String> {
     }
     let Loaded { case, meshed, model } = load(request)?;
     refuse_loose(&model)?;
-    let Prepared { model, rayleigh, .. } = Prepared::beside(&meshed.path, model)?;
+    let prepared = Prepared::beside(&meshed.path, model)?;
+    refuse_overflow(&prepared)?;
+    let Prepared { model, rayleigh, .. } = prepared;
     let rayleigh = if model.analysis == Analysis::Static { Rayleigh::default() } else { rayleigh };
     let parts = [
         format!("{}\n{}", meshed.told, counts(&meshed.mesh)),

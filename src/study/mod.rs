@@ -20,6 +20,7 @@ mod mesh_report;
 pub mod meshing;
 pub mod modes;
 mod orders;
+mod overflow;
 pub mod prepare;
 mod quantity;
 mod recorder;

@@ -3,6 +3,7 @@
 use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use super::screen::Screen;
+use crate::model::idle::NOTHING_ACTS;
 use crate::results::file;
 use crate::results::folder::claim;
 use crate::results::foreign::refuse_foreign;
@@ -22,7 +23,7 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
     let screen = Screen::new(request.quiet);
     let Loaded { case, meshed, model } = load(request)?;
     screen.say(&meshed.told);
-    model.warnings.iter().for_each(|w| screen.warn(w));
+    model.warnings.iter().filter(|w| *w != NOTHING_ACTS).for_each(|w| screen.warn(w));
     let prepared = Prepared::beside(&meshed.path, model)?;
     let count = count.min(prepared.system.unknowns.count);
     if count > MOST_MODES {

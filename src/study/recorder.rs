@@ -173,7 +173,7 @@ impl<'a> Recorder<'a> {
                 .warnings
                 .iter()
                 .cloned()
-                .chain(self.ledger.warning())
+                .chain(self.ledger.warning(model.analysis))
                 .chain(self.ledger.unclosed().filter(|_| model.closes_its_ledger()))
                 .chain(snapshots.motion.warnings())
                 .collect(),

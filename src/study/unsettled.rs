@@ -38,16 +38,30 @@ pub fn in_step(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: us
     ))
 }
 
-/// Cause and advice without inertia: what friction does not hold has no equilibrium.
+/// Cause and advice without inertia, in statics and under gravity: what friction does not hold has no equilibrium.
 fn still(prepared: &Prepared, unsettled: &Unsettled) -> (String, String) {
     let moving = moving_bodies(prepared, unsettled);
+    let moves = prepared.model.analysis == Analysis::Dynamic;
     if moving.is_empty() {
-        let fallback = "try smaller steps of the load (a table that grows from 0, a smaller time.step), or more \
-                        newton.max_iterations";
+        let fallback = match moves {
+            true => "try more newton.max_iterations, or leave out \"gravity\" and give the weight as a \"body_force\"",
+            false => {
+                "try smaller steps of the load (a table that grows from 0, a smaller time.step), or more \
+                 newton.max_iterations"
+            }
+        };
         return (restless(prepared, unsettled), advice(unsettled, fallback));
     }
-    let advice = "give it more friction, a support or a smaller load, or let it move with analysis = \"dynamic\"";
-    (moving.join("; "), advice.into())
+    // A run that moves comes here under its weight alone, before its loads begin.
+    let weight = "leave out \"gravity\" and give its weight as a \"body_force\"";
+    let advice = match (moves, prepared.model.gravity > 0.) {
+        (true, _) => format!("give it more friction or a support, or let it move from t = 0 on: {weight}"),
+        (false, weighs) => format!(
+            "give it more friction, a support or a smaller load, or let it move with analysis = \"dynamic\"{}",
+            if weighs { format!(": there, {weight}") } else { String::new() }
+        ),
+    };
+    (moving.join("; "), advice)
 }
 
 /// A sentence for every body whose joints all slip or stand open.

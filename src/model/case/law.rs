@@ -188,7 +188,15 @@ impl<Q: Into<f64> + Copy> LawKeys<Q> {
         self.check()?;
         let (scale, [start, rise]) = (self.scale.unwrap_or(1.0), self.delay());
         let name = self.law.keys().0;
-        delayed(name, self.unscaled()?.scaled(scale), start, rise)
+        let law = self.unscaled()?;
+        let (unscaled, law) = (law.largest(), law.scaled(scale));
+        if !law.largest().is_finite() {
+            return Err(format!(
+                "the law's largest value, {unscaled:e}, times \"scale\", {scale:e}, is no finite number: it is more than a \
+                 computer can hold"
+            ));
+        }
+        delayed(name, law, start, rise)
     }
 
     /// (start, rise) [s]

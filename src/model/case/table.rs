@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::input::{self, Kind};
 use crate::model::units::{ForceDensity, LineForce, Pressure, Time};
+use crate::number::short;
 
 /// Value in SI of a unit, or the sentence that there is no such unit.
 type Unit = fn(&str) -> Result<f64, String>;
@@ -79,7 +80,6 @@ fn read(file: &Path, unit: Unit) -> Result<(Vec<f64>, Vec<f64>), String> {
         .map(|(i, line)| (i + 1, line.split('#').next().unwrap_or_default().trim()))
         .filter(|(_, line)| !line.is_empty())
         .collect();
-    let is_heading = |line: &str| line.contains('[') || columns(line).all(|word| word.parse::<f64>().is_err());
     let heading = lines.first().filter(|(_, line)| is_heading(line));
     let first = lines.first().map_or(0, |(number, _)| *number);
     if !heading.is_some_and(|(_, line)| line.contains('[')) {
@@ -89,39 +89,55 @@ fn read(file: &Path, unit: Unit) -> Result<(Vec<f64>, Vec<f64>), String> {
         Some((number, line)) => factors(line, unit).map_err(|why| at((*number, why)))?,
         None => [1.; 2],
     };
-    let rows = rows(&lines[usize::from(heading.is_some())..]).map_err(at)?;
+    let rows = rows(&lines[usize::from(heading.is_some())..], factors).map_err(at)?;
     match rows.len() {
         0 | 1 => Err(format!(
             "{name}: it has {} of the at least two lines of numbers that a table needs; {LINE}",
             rows.len()
         )),
-        _ => Ok(rows.into_iter().map(|[time, value]| (time * factors[0], value * factors[1])).unzip()),
+        _ => Ok(rows.into_iter().map(|[time, value]| (time, value)).unzip()),
     }
 }
 
-/// (time, value) of each line, in the file's units.
-fn rows(lines: &[Line]) -> Result<Vec<[f64; 2]>, (usize, String)> {
+/// A first line that begins with a digit, a sign or a point is data, and refused as such if it cannot be read: a heading is
+/// left out. One that begins otherwise is a heading if it has units in brackets, or if no word of it is or begins as a
+/// number.
+fn is_heading(line: &str) -> bool {
+    let is_number = |word: &str| {
+        word.starts_with(|c: char| c.is_numeric() || "+-.\u{2212}".contains(c)) || word.parse::<f64>().is_ok()
+    };
+    let mut words = columns(line);
+    !words.next().is_some_and(is_number) && (line.contains('[') || !words.any(is_number))
+}
+
+/// (time, value) of each line in SI; `factors` are the values in SI of the columns' units.
+fn rows(lines: &[Line], factors: [f64; 2]) -> Result<Vec<[f64; 2]>, (usize, String)> {
     let mut rows: Vec<[f64; 2]> = Vec::new();
     for &(number, line) in lines {
         let row = row(line).map_err(|why| (number, why))?;
         let before = rows.last().map_or(0., |[time, _]| *time);
         if row[0] < before || (row[0] == before && !rows.is_empty()) {
-            let last = rows.last().map_or(String::new(), |[time, _]| format!(" after {time}"));
+            let last = rows.last().map_or(String::new(), |[time, _]| format!(" after {}", short(*time)));
             let why = format!(
                 "its time is {}{last}: the times of a table must ascend, each later than the one before, from 0 or later",
-                row[0]
+                short(row[0])
             );
             return Err((number, why));
         }
         rows.push(row);
     }
-    Ok(rows)
+    let in_si = |row: [f64; 2]| [row[0] * factors[0], row[1] * factors[1]];
+    let too_large = |row: &[f64; 2]| in_si(*row).iter().any(|number| !number.is_finite());
+    match rows.iter().position(too_large) {
+        Some(i) => Err((lines[i].0, format!("\"{}\" is more in SI units than a computer can hold", lines[i].1))),
+        None => Ok(rows.into_iter().map(in_si).collect()),
+    }
 }
 
 fn row(line: &str) -> Result<[f64; 2], String> {
     let number = |word: &str| {
         let finite = word.parse().ok().filter(|v: &f64| v.is_finite());
-        finite.ok_or_else(|| format!("\"{word}\" is no number; {LINE}"))
+        finite.map(|v| v + 0.).ok_or_else(|| format!("\"{word}\" is no number; {LINE}"))
     };
     match columns(line).collect::<Vec<_>>()[..] {
         [time, value] => Ok([number(time)?, number(value)?]),

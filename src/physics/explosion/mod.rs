@@ -218,4 +218,8 @@ fn decay_of(what: &str, ratio: f64, notes: &mut Vec<String>) -> f64 {
 }
 
 #[cfg(test)]
+mod published;
+#[cfg(test)]
+mod published_swisdak;
+#[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use super::{Burst, Explosion, Wave};
 use crate::number::{short, short_to};
 
 /// Scaled radius of a sphere of TNT, 1630 kg/m^3 [m/kg^(1/3)].
-const RADIUS: f64 = 0.0527;
+pub(super) const RADIUS: f64 = 0.0527;
 /// Where a wave counts as passing along a surface: the angle from the perpendicular [degrees], a choice.
 const GRAZING: f64 = 85.;
 /// Up to here it counts as meeting it at right angles [degrees], a choice.

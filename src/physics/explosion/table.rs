@@ -1,8 +1,10 @@
 //! Coefficients of Kingery and Bulmash for TNT (C. N. Kingery and G. Bulmash, *Airblast parameters from TNT spherical
 //! air burst and hemispherical surface burst*, ARBRL-TR-02555, 1984), metric form.
 //!
-//! The constant of the spherical duration's middle branch is +0.23031841078: with the minus sign of one public code the
-//! branches do not meet.
+//! Misprints in circulation: the constant of the spherical duration's middle branch is +0.23031841078 (with a minus sign
+//! the branches do not meet); the last coefficient of the spherical reflected pressure is -0.00397126276058 (with
+//! -0.00387 P_r / P_s rises to 2.22 at Z = 40, where a weak shock has 2). Of the hemispherical incident impulse's third
+//! coefficient beyond Z = 0.955 two versions are in print, -0.0260816706301, as here, and -0.0280816706301: docs/theory.md.
 
 use super::kingery_bulmash::{Branch, Table};
 
@@ -180,7 +182,7 @@ pub const SPHERICAL: Table = Table {
             -0.0158699803158,
             0.0492741184234,
             0.00227639644004,
-            -0.00387126276058,
+            -0.00397126276058,
         ],
     }],
     incident_impulse: &[
