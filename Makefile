@@ -1,6 +1,6 @@
 # make          sets up what is missing, builds, meshes, solves; the results are in output/twin_pipes/
 # make test     every test
-# make batch    all variants of geo/batch.txt, with -j2 two at a time; the peaks are in output/batch.csv
+# make batch    all variants of geo/batch.txt, with -j2 two at a time; the table is output/batch.csv
 # make book     the verification book: every case with an exact answer, written to docs/verification/
 # make bench    what a step costs, against what memory allows and against a linear step; BENCH=full adds 1,000,000 unknowns
 # make bench-peers  the same case by OpenSees, SciPy and Kratos, which it installs into .venv-bench
@@ -51,7 +51,7 @@ bench-peers: setup $(program)
 	$(program) mesh
 	PYTHONPATH=scripts .venv-bench/bin/python -m bench $(if $(RECORD),--record)
 
-# Goes on where one variant fails, so that the table holds the others; the failure is told at the end.
+# Continues where a variant fails, so that the table holds the others; failures are reported at the end.
 batch: setup $(program)
 	@$(MAKE) --no-print-directory --keep-going --file scripts/batch.mk; made=$$?; \
 	$(python) scripts/batch.py table geo/batch.txt output/batch.csv && exit $$made

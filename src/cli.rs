@@ -27,6 +27,9 @@ pub enum Command {
         /// Glue pipes and ground together: no opening, no slip
         #[arg(long)]
         bonded: bool,
+        /// Compute nothing where the folder has the results of this very case and mesh by this program
+        #[arg(long)]
+        unless_done: bool,
         /// Print the results only, not what is going on
         #[arg(long)]
         quiet: bool,
@@ -263,8 +266,9 @@ pub fn execute(command: Command) -> Result<()> {
 
 fn result_of(command: Command) -> Result<String> {
     match command {
-        Command::Run { case, out, bonded, quiet } => {
-            study::run::command(&Request { out, bonded, quiet, ..case.request()? })
+        Command::Run { case, out, bonded, unless_done, quiet } => {
+            let request = Request { out, bonded, quiet, ..case.request()? };
+            if unless_done { study::run::unless_done(&request) } else { study::run::command(&request) }
         }
         Command::Mesh { case } => study::mesh::command(&case.request()?),
         Command::Check { case } => study::check::command(&case.request()?),

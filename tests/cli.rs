@@ -487,6 +487,39 @@ fn a_folder_that_holds_other_things_is_refused_and_not_touched() {
     }
 }
 
+/// Read back from `histories.csv`: the first step that has the value is its time, and a peak is one of the two.
+#[test]
+fn the_summary_has_the_largest_and_the_least_value_of_each_history_with_its_time() {
+    let bench = Bench::new("extremes");
+    assert_eq!(bench.run_line("run block.json --set loads.top.pressure.peak=-100kPa --quiet").code, Some(0));
+    let text = std::fs::read_to_string(bench.path("output/block/histories.csv")).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let columns = lines.next().unwrap();
+    let rows: Vec<Vec<f64>> = lines.map(|cells| cells.iter().map(|cell| cell.parse().unwrap()).collect()).collect();
+    let summary = std::fs::read(bench.path("output/block/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+    let (mut count, mut differ) = (0, 0);
+    for (i, column) in columns.iter().enumerate().skip(1) {
+        let (probe, component) = column.split_once('.').unwrap();
+        let found = &summary["peaks"][probe][component];
+        let first = |is: &dyn Fn(f64, f64) -> bool| {
+            rows.iter().fold((f64::NAN, f64::NAN), |best, row| {
+                if best.1.is_nan() || is(row[i], best.1) { (row[0], row[i]) } else { best }
+            })
+        };
+        let (max, min) = (first(&|a, b| a > b), first(&|a, b| a < b));
+        let read = |of: &serde_json::Value| (of["time"].as_f64().unwrap(), of["value"].as_f64().unwrap());
+        let close = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < 1e-12 && (a.1 - b.1).abs() <= 1e-15 * b.1.abs();
+        assert!(close(read(&found["max"]), max), "{column}: {} but {max:?}", found["max"]);
+        assert!(close(read(&found["min"]), min), "{column}: {} but {min:?}", found["min"]);
+        let peak = if max.1 >= -min.1 { max } else { min };
+        assert!((read(found).1.abs() - peak.1.abs()).abs() <= 1e-15 * peak.1.abs(), "{column}: {found} but {peak:?}");
+        count += 1;
+        differ += usize::from(max.1 > 0. && min.1 < 0.);
+    }
+    assert!(count == 12 && differ >= 6, "{count} histories, {differ} of them with both signs");
+}
+
 #[test]
 fn results_of_other_options_are_named_before_they_are_replaced() {
     let bench = Bench::new("replaced");

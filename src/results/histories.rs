@@ -24,11 +24,36 @@ pub struct Peak {
     pub time: f64,
 }
 
+/// What a component reached over all steps: the value of largest magnitude, the largest value and the least value.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Extremes {
+    #[serde(flatten)]
+    peak: Peak,
+    max: Peak,
+    min: Peak,
+}
+
+impl Extremes {
+    fn at(now: Peak) -> Extremes {
+        Extremes { peak: now, max: now, min: now }
+    }
+
+    /// The earlier one stays where two are equal.
+    fn and(self, now: Peak) -> Extremes {
+        Extremes {
+            peak: if now.value.abs() > self.peak.value.abs() { now } else { self.peak },
+            max: if now.value > self.max.value { now } else { self.max },
+            min: if now.value < self.min.value { now } else { self.min },
+        }
+    }
+}
+
 /// `histories.csv`.
 pub struct Histories {
     lines: Lines,
     probes: Vec<NodeProbe>,
-    peaks: Vec<[Peak; 6]>,
+    /// none before the first step is recorded
+    extremes: Vec<Option<[Extremes; 6]>>,
 }
 
 impl Histories {
@@ -38,7 +63,7 @@ impl Histories {
         Ok(Histories {
             lines: Lines::create(path, format!("t{}\n", columns.collect::<String>()))?,
             probes: probes.to_vec(),
-            peaks: vec![[Peak::default(); 6]; probes.len()],
+            extremes: vec![None; probes.len()],
         })
     }
 
@@ -47,16 +72,19 @@ impl Histories {
         let line = &mut self.lines.waiting;
         // writing to memory does not fail
         let _ = write!(line, "{}", decimal(state.time));
-        for (probe, peaks) in self.probes.iter().zip(&mut self.peaks) {
+        let time = nearest_decimal(state.time);
+        for (probe, extremes) in self.probes.iter().zip(&mut self.extremes) {
             let mut motion = [&state.q, &state.v, &state.a].map(|x| unknowns.at_node(x, probe.node));
             let at_origin = unknowns.at_node(origin, probe.node);
             motion[0] = [motion[0][0] - at_origin[0], motion[0][1] - at_origin[1]];
-            for (value, peak) in motion.as_flattened().iter().zip(peaks) {
+            for value in motion.as_flattened() {
                 let _ = write!(line, ",{value:e}");
-                if value.abs() > peak.value.abs() {
-                    *peak = Peak { value: *value, time: nearest_decimal(state.time) };
-                }
             }
+            let now: [Peak; 6] = std::array::from_fn(|i| Peak { value: motion.as_flattened()[i] + 0., time });
+            *extremes = Some(match extremes {
+                None => now.map(Extremes::at),
+                Some(old) => std::array::from_fn(|i| old[i].and(now[i])),
+            });
         }
         line.push('\n');
     }
@@ -65,11 +93,12 @@ impl Histories {
         self.lines.flush()
     }
 
-    /// Per probe and component: `{"A": {"ux": {"value", "time"}, ...}, ...}`.
+    /// Per probe and component: `{"A": {"ux": {"value", "time", "max": {"value", "time"}, "min": {...}}, ...}, ...}`.
     pub fn peaks(&self) -> serde_json::Map<String, serde_json::Value> {
-        let of_probe = |peaks: &[Peak; 6]| -> serde_json::Map<String, serde_json::Value> {
-            COMPONENTS.iter().zip(peaks).map(|(c, p)| (c.to_string(), serde_json::json!(p))).collect()
+        let of_probe = |extremes: &Option<[Extremes; 6]>| -> serde_json::Map<String, serde_json::Value> {
+            let extremes = extremes.unwrap_or([Extremes::at(Peak::default()); 6]);
+            COMPONENTS.iter().zip(extremes).map(|(c, e)| (c.to_string(), serde_json::json!(e))).collect()
         };
-        self.probes.iter().zip(&self.peaks).map(|(p, peaks)| (p.name.clone(), of_probe(peaks).into())).collect()
+        self.probes.iter().zip(&self.extremes).map(|(p, e)| (p.name.clone(), of_probe(e).into())).collect()
     }
 }

@@ -1,4 +1,6 @@
-//! The words of a Gmsh script, and the constants its `DefineConstant` blocks declare.
+//! The constants that the `DefineConstant` blocks of a Gmsh script declare.
+
+use super::words::Word;
 
 /// A constant of `DefineConstant` that `gmsh -setnumber` can set.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,88 +38,9 @@ impl Expression {
     }
 }
 
-/// A word of the script: comments and white space are gone.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Word {
-    Name(String),
-    Number(String),
-    Text(String),
-    Symbol(char),
-}
-
-impl Word {
-    fn is(&self, symbol: char) -> bool {
-        *self == Word::Symbol(symbol)
-    }
-
-    fn source(&self) -> String {
-        match self {
-            Word::Name(s) | Word::Number(s) => s.clone(),
-            Word::Text(s) => format!("\"{s}\""),
-            Word::Symbol(c) => c.to_string(),
-        }
-    }
-}
-
-pub(super) fn words(source: &str) -> Vec<Word> {
-    let mut words = Vec::new();
-    let mut rest = source;
-    while let Some(first) = rest.chars().next() {
-        let length = if rest.starts_with("//") {
-            rest.find('\n').unwrap_or(rest.len())
-        } else if rest.starts_with("/*") {
-            rest.find("*/").map_or(rest.len(), |end| end + 2)
-        } else if first == '"' {
-            let text = rest[1..].split('"').next().unwrap_or_default();
-            words.push(Word::Text(text.into()));
-            (text.len() + 2).min(rest.len())
-        } else if first.is_alphabetic() || first == '_' {
-            let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
-            words.push(Word::Name(rest[..end].into()));
-            end
-        } else if number_length(rest) > 0 {
-            words.push(Word::Number(rest[..number_length(rest)].into()));
-            number_length(rest)
-        } else {
-            words.extend((!first.is_whitespace()).then_some(Word::Symbol(first)));
-            first.len_utf8()
-        };
-        rest = &rest[length..];
-    }
-    words
-}
-
-/// Bytes of the unsigned number `rest` begins with: `12`, `.5`, `1.5e-3`; 0 if it does not.
-fn number_length(rest: &str) -> usize {
-    let digits = |from: usize| rest[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let whole = digits(0);
-    let mantissa = match rest[whole..].starts_with('.') {
-        true if whole + digits(whole + 1) > 0 => whole + 1 + digits(whole + 1),
-        _ => whole,
-    };
-    let exponent = rest[mantissa..].strip_prefix(['e', 'E']).map(|e| usize::from(e.starts_with(['+', '-'])) + 1);
-    match exponent {
-        Some(sign) if mantissa > 0 && digits(mantissa + sign) > 0 => mantissa + sign + digits(mantissa + sign),
-        _ => mantissa,
-    }
-}
-
-/// File names behind `Include`, `Merge` and `ShapeFromFile`.
-pub(super) fn included(words: &[Word]) -> Vec<&str> {
-    let reads = |w: &Word| matches!(w, Word::Name(n) if n == "Include" || n == "Merge" || n == "ShapeFromFile");
-    let name_behind = |i: usize| {
-        let behind = words[i + 1..].iter().find(|w| !w.is('('))?;
-        match behind {
-            Word::Text(name) => Some(name.as_str()),
-            _ => None,
-        }
-    };
-    (0..words.len()).filter(|&i| reads(&words[i])).filter_map(name_behind).collect()
-}
-
 /// The numbers of all `DefineConstant[ ... ]` blocks.
 pub(super) fn constants(words: &[Word]) -> Vec<Constant> {
-    let is_block = |w: &[Word]| w[0] == Word::Name("DefineConstant".into()) && (w[1].is('[') || w[1].is('('));
+    let is_block = |w: &[Word]| w[0] == Word::Name("DefineConstant") && (w[1].is('[') || w[1].is('('));
     let starts = words.windows(2).enumerate().filter(|(_, w)| is_block(w)).map(|(i, _)| i + 1);
     starts.flat_map(|start| block(&words[start..=closing(words, start)])).collect()
 }
@@ -147,7 +70,7 @@ fn block(words: &[Word]) -> Vec<Constant> {
     let mut constants = Vec::new();
     let mut i = 1;
     while i + 1 < words.len() {
-        let Word::Name(name) = &words[i] else {
+        let Word::Name(name) = words[i] else {
             i = if matches!(words[i], Word::Symbol('{' | '(' | '[')) { closing(words, i) + 1 } else { i + 1 };
             continue;
         };
@@ -155,13 +78,7 @@ fn block(words: &[Word]) -> Vec<Constant> {
             // `name` alone is 0; `name() = ...` is a list, `name~{i}` a computed name
             let alone = words[i + 1].is(',') || i + 2 == words.len();
             let default = Expression::Number(0.0);
-            constants.extend(alone.then(|| Constant {
-                name: name.clone(),
-                label: None,
-                default,
-                min: None,
-                max: None,
-            }));
+            constants.extend(alone.then(|| Constant { name: name.into(), label: None, default, min: None, max: None }));
             i += 1;
             continue;
         }
@@ -183,11 +100,11 @@ fn constant(name: &str, value: &[Word]) -> Option<Constant> {
     };
     let parts = split_at_commas(inner);
     let option = |key: &str| {
-        let found = parts[1..].iter().find(|p| matches!(p.first(), Some(Word::Name(n)) if n == key));
+        let found = parts[1..].iter().find(|p| p.first() == Some(&Word::Name(key)));
         found.map(|part| &part[1..])
     };
     let label = option("Name").and_then(|p| match p {
-        [Word::Text(text), ..] => Some(text.clone()),
+        [Word::Text(text), ..] => Some((*text).into()),
         _ => None,
     });
     let text = |w: &Word| matches!(w, Word::Text(_)) || w.is('{');
@@ -199,7 +116,7 @@ fn constant(name: &str, value: &[Word]) -> Option<Constant> {
 }
 
 /// The parts between commas outside of brackets; at least one.
-fn split_at_commas(words: &[Word]) -> Vec<&[Word]> {
+fn split_at_commas<'a, 'w>(words: &'w [Word<'a>]) -> Vec<&'w [Word<'a>]> {
     let mut parts = Vec::new();
     let (mut start, mut i) = (0, 0);
     while i < words.len() {

@@ -3,6 +3,7 @@
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
+use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -22,6 +23,8 @@ pub struct Said {
     /// gmsh's version, `4.15.2`
     pub version: String,
     pub warnings: Vec<String>,
+    /// files that it reported to read: the script, and what that includes and merges
+    pub read: Vec<PathBuf>,
 }
 
 impl Gmsh {
@@ -109,7 +112,8 @@ impl Gmsh {
         if !errors.is_empty() {
             return Err(Error::input(format!("gmsh could not mesh {name}: {}", errors.join("; "))));
         }
-        let said = Said { version: version(&text), warnings: messages(&text, "Warning", script) };
+        let said =
+            Said { version: version(&text), warnings: messages(&text, "Warning", script), read: read(&output.stdout) };
         if output.status.success() {
             return Ok(said);
         }
@@ -136,6 +140,18 @@ fn messages(text: &str, level: &str, script: &Path) -> Vec<String> {
         }
     }
     messages
+}
+
+/// From lines such as `Info    : Reading 'geo/box.geo'...`, whose names are any bytes.
+fn read(output: &[u8]) -> Vec<PathBuf> {
+    let name = |line: &&[u8]| {
+        let rest = line.strip_prefix(b"Info")?.trim_ascii_start().strip_prefix(b":")?.trim_ascii_start();
+        let name = rest.strip_prefix(b"Reading '")?;
+        // gmsh may add times and memory behind
+        let end = name.windows(4).rposition(|w| w == b"'...")?;
+        Some(PathBuf::from(OsStr::from_bytes(&name[..end])))
+    };
+    output.split(|&b| b == b'\n').filter_map(|line| name(&line)).collect()
 }
 
 /// Lines of the summary that gmsh closes with, which only counts what it has said: `1 warning`, `0 errors`.

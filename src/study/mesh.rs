@@ -84,6 +84,7 @@ fn made(script: &Path, parameters: &BTreeMap<String, f64>, path: PathBuf) -> Res
     let told = meshing.to_string();
     let warnings = match meshing.outcome {
         Outcome::Unchanged => vec![],
+        Outcome::Unchecked { reason } => vec![format!("{} may be stale: {reason}", path.display())],
         Outcome::Made { warnings, .. } => warnings,
     };
     Ok(Source { path, content: meshing.content, told, warnings })

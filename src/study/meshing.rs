@@ -1,30 +1,18 @@
 //! A mesh that fits its script and parameters: made by gmsh where it does not, taken as it is where it does.
 
-use super::constants::Expression;
-use super::content::{Content, sha256};
+use super::content::Content;
 use super::gmsh::Gmsh;
+use super::record::{Record, Stale};
 use super::script::Script;
-use crate::input::{self, Kind};
+use super::sources::Sources;
+use super::temporary::{Temporary, is_full, remove_leftovers};
 use crate::model::mesh::Mesh;
 use crate::model::msh;
 use crate::{Error, Result};
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
-
-/// What stands beside `X.msh` in `X.json`: what the mesh was made from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Record {
-    script: String,
-    /// of the script and, behind it, the files it includes
-    script_sha256: String,
-    /// every constant's value in force; a default that is a formula stands as its text
-    parameters: BTreeMap<String, serde_json::Value>,
-    gmsh: String,
-    mesh_sha256: String,
-}
+use std::time::{Instant, SystemTime};
 
 /// How a mesh came to be there.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,8 +28,10 @@ pub struct Meshing {
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
-    /// script, parameters and mesh are as recorded: gmsh was not needed
+    /// script, all that gmsh read, parameters and mesh are as recorded: gmsh was not needed
     Unchanged,
+    /// as `Unchanged`, but not all that counts is recorded, and there is no gmsh to make the mesh again
+    Unchecked { reason: String },
     Made {
         seconds: f64,
         /// why the mesh that was there, if any, did not do
@@ -61,6 +51,9 @@ impl fmt::Display for Meshing {
                     "{mesh} is taken as it is: {script} and its parameters have not changed since gmsh {} made it",
                     self.gmsh
                 )
+            }
+            Outcome::Unchecked { reason } => {
+                write!(f, "{mesh} is used as it is, since there is no gmsh to make it again ({reason})")
             }
             Outcome::Made { seconds, reason, .. } => {
                 write!(f, "{mesh} was made from {script} by gmsh {} in {seconds:.2} s ({reason})", self.gmsh)
@@ -84,53 +77,63 @@ pub fn ensure_mesh_with(
     mesh: &Path,
     find: impl FnOnce() -> Result<Gmsh>,
 ) -> Result<Meshing> {
-    let source = Script::read(script)?;
+    remove_leftovers(mesh.parent().unwrap_or(Path::new("")));
+    let wanted = Record::wanted(&Script::read(script)?, parameters)?;
     let old = Content::read(mesh).ok();
-    let mut wanted = Record {
-        script: msh::file_name(script),
-        script_sha256: sha256(&source.bytes),
-        parameters: source.values(parameters)?.into_iter().map(|(name, value)| (name, json(value))).collect(),
-        gmsh: String::new(),
-        mesh_sha256: old.as_ref().map(|old| old.sha256.clone()).unwrap_or_default(),
-    };
     let record_file = mesh.with_extension("json");
-    let record = read_record(&record_file)?;
+    let record = Record::read(&record_file)?;
     let meshing = |gmsh, content, outcome| Meshing { mesh: mesh.into(), content, script: script.into(), gmsh, outcome };
-    let reason = match (record, old) {
-        (_, None) => "there was no mesh".into(),
-        (None, Some(_)) => format!("there was no record {} of what the mesh was made from", record_file.display()),
-        (Some(record), Some(old)) => match difference(&record, &wanted) {
+    let (stale, kept) = match (record, old) {
+        (_, None) => (Stale::Changed("there was no mesh".into()), None),
+        (None, Some(_)) => {
+            let missing = format!("there was no record {} of what the mesh was made from", record_file.display());
+            (Stale::Changed(missing), None)
+        }
+        (Some(record), Some(old)) => match record.staleness(&wanted, script, &old.sha256) {
             None => return Ok(meshing(record.gmsh, old, Outcome::Unchanged)),
-            Some(difference) => difference,
+            Some(stale) => (stale, Some(meshing(record.gmsh, old, Outcome::Unchanged))),
         },
     };
-    let gmsh = find().map_err(|e| {
-        Error::input(format!("{} must be made from {} ({reason}), but {e}", mesh.display(), script.display()))
-    })?;
+    let gmsh = match (find(), &stale, &kept) {
+        (Ok(gmsh), ..) => gmsh,
+        (Err(_), Stale::Doubtful(reason), Some(kept)) => {
+            return Ok(Meshing { outcome: Outcome::Unchecked { reason: reason.clone() }, ..kept.clone() });
+        }
+        (Err(e), ..) => {
+            let (mesh, script, reason) = (mesh.display(), script.display(), stale.reason());
+            return Err(Error::input(format!("{mesh} must be made from {script} ({reason}), but {e}")));
+        }
+    };
     let start = Instant::now();
     let made = make(&gmsh, script, parameters, mesh)?;
-    wanted.gmsh.clone_from(&made.version);
-    wanted.mesh_sha256.clone_from(&made.content.sha256);
-    let text = serde_json::to_string_pretty(&wanted).expect("a record has only texts and finite numbers") + "\n";
-    replace(&record_file, text.as_bytes())?;
+    let record = wanted.made(&made.version, made.sources, &made.content.sha256);
+    replace(&record_file, record.to_json().as_bytes())?;
     let seconds = start.elapsed().as_secs_f64();
+    let is_same = kept.is_some_and(|kept| kept.content == made.content);
+    let reason = match stale {
+        Stale::Doubtful(reason) if is_same => format!("{reason}; the new mesh equals the old one"),
+        Stale::Doubtful(reason) | Stale::Changed(reason) => reason,
+    };
     Ok(meshing(made.version, made.content, Outcome::Made { seconds, reason, warnings: made.warnings }))
 }
 
 struct Made {
     version: String,
     warnings: Vec<String>,
+    sources: Sources,
     content: Content,
 }
 
 /// Lets gmsh write under a temporary name beside `mesh`, and takes the result only if it is a plane mesh.
 fn make(gmsh: &Gmsh, script: &Path, parameters: &BTreeMap<String, f64>, mesh: &Path) -> Result<Made> {
-    let temporary = temporary_name(mesh);
-    check_writable(&temporary)?;
-    let made = make_at(gmsh, script, parameters, mesh, &temporary);
-    // already renamed if all went well
-    let _ = std::fs::remove_file(&temporary);
-    made
+    let folder = mesh.parent().unwrap_or(Path::new(""));
+    let created = if folder.as_os_str().is_empty() { Ok(()) } else { std::fs::create_dir_all(folder) };
+    let temporary = created.and_then(|()| Temporary::beside(mesh)).map_err(|e| not_writable(folder, &e))?;
+    let made = make_at(gmsh, script, parameters, mesh, temporary.path());
+    // gmsh itself does not notice that what it writes does not arrive
+    let made = made.map_err(|error| temporary.fullness().map_or(error, |e| not_writable(folder, &e)))?;
+    temporary.rename(mesh).map_err(|e| not_writable(mesh, &e))?;
+    Ok(made)
 }
 
 fn make_at(
@@ -140,6 +143,7 @@ fn make_at(
     mesh: &Path,
     temporary: &Path,
 ) -> Result<Made> {
+    let since = SystemTime::now();
     let said = gmsh.mesh(script, parameters, temporary)?;
     let name = msh::file_name(mesh);
     let warned = match said.warnings.join("; ") {
@@ -153,79 +157,29 @@ fn make_at(
         return Err(failed(&"it ended without an error, but wrote nothing"));
     }
     msh::parse(&bytes, &name).and_then(|read| Mesh::from_msh(&read, &name)).map_err(|e| failed(&e))?;
-    std::fs::rename(temporary, mesh).map_err(|e| not_writable(mesh, &e))?;
-    Ok(Made { version: said.version, warnings: said.warnings, content: Content::of(bytes) })
-}
-
-/// What of the record is not as wanted; none if nothing is.
-fn difference(record: &Record, wanted: &Record) -> Option<String> {
-    if record.script_sha256 != wanted.script_sha256 {
-        return Some("the script has changed".into());
-    }
-    let changed = |(name, value): (&String, &serde_json::Value)| match record.parameters.get(name) {
-        Some(old) if is_same(old, value) => None,
-        Some(old) => Some(format!("{name} was {old}, is {value}")),
-        None => Some(format!("{name} is {value}")),
-    };
-    let changes: Vec<String> = wanted.parameters.iter().filter_map(changed).collect();
-    match changes.is_empty() {
-        false => Some(changes.join(", ")),
-        true => (record.mesh_sha256 != wanted.mesh_sha256).then(|| "the mesh is not the one that was recorded".into()),
-    }
-}
-
-/// Equal texts, or numbers equal but for the last digit, which reading JSON may change.
-fn is_same(a: &serde_json::Value, b: &serde_json::Value) -> bool {
-    match (a.as_f64(), b.as_f64()) {
-        (Some(a), Some(b)) => (a - b).abs() <= 4.0 * f64::EPSILON * b.abs(),
-        _ => a == b,
-    }
-}
-
-/// None if there is no such file.
-///
-/// Errors: the file is something else, say a case file: it must not be written over.
-fn read_record(file: &Path) -> Result<Option<Record>> {
-    let Ok(bytes) = input::read(file, Kind::Record) else {
-        return Ok(None);
-    };
-    serde_json::from_slice(&bytes).map(Some).map_err(|_| {
-        Error::input(format!(
-            "{} stands where the record of the mesh belongs, but is none: move it away, or let the mesh lie elsewhere",
-            file.display()
-        ))
-    })
-}
-
-fn json(value: Expression) -> serde_json::Value {
-    match value {
-        Expression::Number(number) => number.into(),
-        Expression::Formula(text) => text.into(),
-    }
-}
-
-/// `meshes/x.msh` -> `meshes/.x.msh.PROCESS`: in the same folder, so that renaming is one step.
-fn temporary_name(file: &Path) -> PathBuf {
-    file.with_file_name(format!(".{}.{}", msh::file_name(file), std::process::id()))
-}
-
-fn check_writable(temporary: &Path) -> Result<()> {
-    let folder = temporary.parent().unwrap_or(Path::new(""));
-    let created = if folder.as_os_str().is_empty() { Ok(()) } else { std::fs::create_dir_all(folder) };
-    created.and_then(|()| std::fs::write(temporary, "")).map_err(|e| not_writable(folder, &e))
+    let sources = Sources::after(script, &said.read, since);
+    Ok(Made { version: said.version, warnings: said.warnings, sources, content: Content::of(bytes) })
 }
 
 fn replace(file: &Path, content: &[u8]) -> Result<()> {
-    let temporary = temporary_name(file);
-    let written = std::fs::write(&temporary, content).and_then(|()| std::fs::rename(&temporary, file));
-    written.map_err(|e| not_writable(file, &e))
+    let write = || {
+        let temporary = Temporary::beside(file)?;
+        std::fs::write(temporary.path(), content)?;
+        temporary.rename(file)
+    };
+    write().map_err(|e| not_writable(file, &e))
 }
 
 fn not_writable(place: &Path, e: &std::io::Error) -> Error {
     let place = if place.as_os_str().is_empty() { Path::new(".") } else { place };
+    if is_full(e) {
+        return Error::input(format!(
+            "the disk is full: the mesh does not fit into {} ({e}); make room there, or run in a folder on another disk",
+            place.display()
+        ));
+    }
     Error::input(format!(
-        "{} cannot be written to: {e}; meshes lie under the current folder: run in one that can be written, or give a mesh by \
-         --mesh FILE.msh",
+        "{} cannot be written to: {e}; meshes lie under the current folder: run in one that can be written, or give a mesh by          --mesh FILE.msh",
         place.display()
     ))
 }

@@ -15,6 +15,7 @@ mod history;
 mod inputs;
 mod loads;
 mod memory;
+mod mentions;
 pub mod mesh;
 mod mesh_report;
 pub mod meshing;
@@ -23,14 +24,18 @@ mod orders;
 mod overflow;
 pub mod prepare;
 mod quantity;
+mod record;
 mod recorder;
 mod richardson;
 pub mod run;
 pub mod screen;
 pub mod script;
 mod series;
+mod sources;
 pub mod sweep;
+mod temporary;
 mod unsettled;
+mod words;
 
 /// `coralpipe schema`: the JSON Schema of the case file.
 pub fn schema() -> String {

@@ -1,6 +1,7 @@
 //! `coralpipe run`: from the case to the results folder.
 
 use super::bulk;
+use super::finished::finished;
 use super::inputs::{made_from, replaced};
 use super::mesh::{self, Meshed};
 use super::prepare::Prepared;
@@ -106,8 +107,24 @@ pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openi
 /// disk).
 pub fn command(request: &Request) -> Result<String> {
     let started = Instant::now();
+    solve(request, load(request)?, started)
+}
+
+/// `coralpipe run --unless-done`: as [`command`], but nothing is computed where the folder has the results of this very
+/// case and mesh by this program.
+pub fn unless_done(request: &Request) -> Result<String> {
+    let started = Instant::now();
+    let loaded = load(request)?;
+    let folder = request.folder(&loaded.case);
+    match finished(&folder, &made_from(&loaded.case, &loaded.meshed, request), true) {
+        Some(_) => Ok(format!("results in {} are those of this case and mesh\n", folder.display())),
+        None => solve(request, loaded, started),
+    }
+}
+
+fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> {
     let screen = Screen::new(request.quiet);
-    let Loaded { case, meshed, mut model } = load(request)?;
+    let Loaded { case, meshed, mut model } = loaded;
     refuse_loose(&model)?;
     model.warnings.extend(bulk::warning(&model));
     model.warnings.extend(ring::uncut(&model));
@@ -134,7 +151,7 @@ pub fn command(request: &Request) -> Result<String> {
     file::create_folder(&path)?;
     let folder = Folder::prepare(&path, &case.name())?;
     replaced.iter().for_each(|sentence| screen.say(sentence));
-    let solve = || {
+    let march_and_write = || {
         let grid = Grid::new(&prepared.model, &prepared.system);
         let mut recorder = Recorder::start(&prepared, &folder, &state, origin, Some(grid.into()))?;
         let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
@@ -144,7 +161,7 @@ pub fn command(request: &Request) -> Result<String> {
         summary.warnings[told..].iter().for_each(|w| screen.warn(w));
         error.map_or(Ok(summary), Err)
     };
-    let summary = solve().map_err(|error| with_what_is_left(error, &folder))?;
+    let summary = march_and_write().map_err(|error| with_what_is_left(error, &folder))?;
     folder.remove_previous()?;
     Ok(summary.table() + &format!("results in {}\n", folder.path().display()))
 }

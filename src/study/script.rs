@@ -1,49 +1,47 @@
-//! What a Gmsh script says about itself without being run: its constants, and the files it reads.
+//! What a Gmsh script says about itself without being run: its constants.
 
-use super::constants::{Constant, Expression, constants, included, words};
+use super::constants::{Constant, Expression, constants};
+use super::mentions::mentions;
+use super::words::words;
 use crate::input::{self, Kind};
 use crate::model::case::nearest;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A Gmsh script with the files it includes.
+/// A Gmsh script and the constants of the scripts that it includes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Script {
     pub path: PathBuf,
     /// in order of appearance, over all included scripts; computed names (`r~{i}`) and texts are left out
     pub constants: Vec<Constant>,
-    /// the bytes of the script, then those of every file it reads through a literal file name
+    /// of the script itself
     pub bytes: Vec<u8>,
 }
 
 impl Script {
     /// Errors: the script cannot be read.
     pub fn read(path: &Path) -> Result<Script> {
-        let mut script = Script { path: path.into(), constants: Vec::new(), bytes: Vec::new() };
+        let bytes = input::read(path, Kind::Script)
+            .map_err(|e| Error::input(format!("the script {} cannot be read: {e}", path.display())))?;
+        let mut script = Script { path: path.into(), constants: Vec::new(), bytes };
         let mut waiting = vec![path.to_path_buf()];
         let mut seen: Vec<PathBuf> = Vec::new();
         while let Some(file) = waiting.pop() {
-            let bytes = match input::read(&file, Kind::Script) {
-                Ok(bytes) => bytes,
-                Err(e) if seen.is_empty() => {
-                    return Err(Error::input(format!("the script {} cannot be read: {e}", path.display())));
-                }
-                // Gmsh says what it thinks of an included file that is missing
-                Err(_) => continue,
+            let included = match seen.is_empty() {
+                true => Ok(script.bytes.clone()),
+                false => input::read(&file, Kind::Script),
             };
-            script.bytes.extend_from_slice(&bytes);
-            if seen.is_empty() || file.extension().is_some_and(|e| e == "geo") {
-                let words = words(&String::from_utf8_lossy(&bytes));
-                for constant in constants(&words) {
+            // a file that is missing is for Gmsh to report
+            if let Ok(bytes) = included {
+                let source = String::from_utf8_lossy(&bytes);
+                for constant in constants(&words(&source).collect::<Vec<_>>()) {
                     // as in Gmsh, the first definition stays
                     if !script.constants.iter().any(|c| c.name == constant.name) {
                         script.constants.push(constant);
                     }
                 }
-                let folder = file.parent().unwrap_or(Path::new(""));
-                let files = included(&words).into_iter().map(|name| folder.join(name));
-                waiting.extend(files.rev().filter(|f| !seen.contains(f)));
+                waiting.extend(scripts_in(&bytes, &file).into_iter().rev().filter(|f| !seen.contains(f)));
             }
             seen.push(file);
         }
@@ -90,4 +88,12 @@ impl Script {
         let list: Vec<String> = self.constants.iter().map(|c| format!("{} = {}", c.name, c.default)).collect();
         Error::input(format!("{script} has no constant \"{name}\"{hint} It has: {}", list.join(", ")))
     }
+}
+
+/// The scripts that the script `file` includes or merges under a name that it gives in full.
+fn scripts_in(bytes: &[u8], file: &Path) -> Vec<PathBuf> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let found = mentions(bytes);
+    let merged = found.read.iter().filter(|name| name.ends_with(".geo"));
+    found.included.iter().chain(merged).map(|name| folder.join(name)).collect()
 }
