@@ -8,6 +8,7 @@
 //! the ground and its gap is positive when open; thickness out of the plane is 1 m; `dof(node n, axis i) = 2n + i`.
 
 pub mod error;
+pub mod escape;
 mod free_memory;
 mod input;
 pub mod model;

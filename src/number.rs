@@ -42,12 +42,20 @@ pub fn short_to(digits: usize, value: f64) -> String {
     }
 }
 
-/// So many decimals; where that would be a row of digits or of zeros, five digits.
+/// So many decimals; where that would be a row of digits or of zeros, five digits. Never longer than 12 characters with
+/// up to four decimals.
 pub fn fixed(decimals: usize, value: f64) -> String {
+    let value = value + 0.; // -0 becomes 0
     match value.abs() {
-        size if size < 1e9 && (size == 0. || size >= 10f64.powi(-(decimals as i32))) => format!("{value:.decimals$}"),
+        size if size < 1e7 && (size == 0. || size >= 10f64.powi(-(decimals as i32))) => format!("{value:.decimals$}"),
         _ => short_to(5, value),
     }
+}
+
+/// A place in the plane [m]: `(0.1250, -3.0000) m`, to a tenth of a millimetre.
+pub fn place([x, y]: [f64; 2]) -> String {
+    let coordinate = |value: f64| fixed(4, if value.abs() < 0.5e-4 { 0. } else { value });
+    format!("({}, {}) m", coordinate(x), coordinate(y))
 }
 
 /// In nine places: four decimals, or three digits where those would show nothing.
@@ -61,7 +69,7 @@ pub fn readable(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{decimal, degrees, fixed, nearest_decimal, seconds, short, short_to};
+    use super::{decimal, degrees, fixed, nearest_decimal, place, seconds, short, short_to};
 
     #[test]
     fn round_off_is_not_shown_and_nothing_else_is_lost() {
@@ -109,5 +117,12 @@ mod tests {
         for (value, text) in [(115.66742, "115.6674"), (0., "0.0000"), (1.5e300, "1.5e300"), (2.5e-7, "2.5e-7")] {
             assert_eq!(fixed(4, value), text);
         }
+    }
+
+    #[test]
+    fn places_have_four_decimals_and_never_a_row_of_digits() {
+        assert_eq!(place([0.125, -3.]), "(0.1250, -3.0000) m");
+        assert_eq!(place([-1e-17, 3e-6]), "(0.0000, 0.0000) m");
+        assert_eq!(place([1e155 / 3., -9_999_999.]), "(3.3333e154, -9999999.0000) m");
     }
 }

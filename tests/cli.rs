@@ -216,6 +216,14 @@ fn names_that_do_not_fit_the_mesh_are_refused_with_those_that_exist() {
                 "block.json --set loads.ground={\"pressure\":{\"law\":\"step\",\"peak\":1}}",
                 &["load \"ground\"", "curves", "surfaces"],
             ),
+            (
+                "pressure inside the solid",
+                "block.json --set interfaces={} --set loads={\"interface\":{\"pressure\":{\"law\":\"step\",\"peak\":1}}}",
+                &[
+                    "load or boundary \"interface\": its line at",
+                    "has a surface on both sides; it must lie on the border",
+                ],
+            ),
             ("probe", "block.json --set probes=[\"Z\"]", &["probe \"Z\"", ALL]),
             ("probe on a surface", "block.json --set probes=[\"body\"]", &["probe \"body\"", "points", "surfaces"]),
             (
@@ -704,4 +712,123 @@ fn a_result_that_stdout_does_not_take_is_an_error() {
         ),
         Some(0)
     );
+}
+
+/// The point P is called "base" as the curve is, the ground "body" as the curve of the interface.
+#[test]
+fn one_name_in_two_dimensions_is_used_by_what_it_means_and_refused_where_that_is_unclear() {
+    let bench = Bench::new("shared_names");
+    let mesh = block_msh().replace("0 6 \"P\"", "0 6 \"base\"").replace("1 3 \"interface\"", "1 3 \"body\"");
+    bench.write("block.msh", mesh);
+    let case = CASE.replace("\"interface\":", "\"body\":").replace("[\"P\"", "[\"base\"");
+    bench.write("unclear.json", &case);
+    const WORDS: [&str; 2] =
+        ["supports: \"base\" is a group of points and a group of curves", "write \"point:base\" or \"curve:base\""];
+    all_refuse(&bench, &[("a support", "unclear.json", &WORDS)]);
+    let case = case.replace("\"base\": [\"x\", \"y\"]", "\"curve:base\": [\"x\", \"y\"]");
+    bench.write("clear.json", &case);
+    let motion = "\"initial\": { \"base\": { \"velocity\": [0, 0] } }, \"time\"";
+    bench.write("initial.json", case.replace("\"time\"", motion));
+    all_refuse(
+        &bench,
+        &[("a motion", "initial.json", &["initial: \"base\" is a group of points and a group of curves"])],
+    );
+
+    let table = bench.run_line("check clear.json").stdout;
+    let row = |begin: &str| table.lines().find(|line| line.trim_start().starts_with(begin)).unwrap_or_default();
+    assert!(row("base                    5 lines").ends_with("support: u_x = u_y = 0"), "{table}");
+    assert!(row("base               point at (2.0000, 3.0000) m").ends_with("probe"), "{table}");
+    assert!(row("body                    4 lines").contains("interface of body: 4 joints in ground"), "{table}");
+    assert!(row("body                    1 elements").contains("material: E 1000.0000 MPa"), "{table}");
+    assert!(!table.contains("does not use"), "{table}");
+    // the numbers are those of the case whose names differ
+    let histories = |name: &str| std::fs::read_to_string(bench.path(format!("output/{name}/histories.csv"))).unwrap();
+    assert_eq!(bench.run_line("run clear.json --quiet").code, Some(0));
+    bench.write("block.msh", block_msh());
+    assert_eq!(bench.run_line("run block.json --quiet").code, Some(0));
+    assert_eq!(histories("clear").replace("base.", "P."), histories("block"));
+}
+
+#[test]
+fn groups_without_elements_have_no_negative_size() {
+    let bench = Bench::new("no_size");
+    let names = "\n9\n2 8 \"nothing\"\n1 9 \"no_line\"\n2 1 \"ground\"";
+    bench.write("few.msh", block_msh().replace("\n7\n2 1 \"ground\"", names));
+    let table = bench.run_line("check few.msh").stdout;
+    assert!(table.contains("nothing                 0 elements,     0.0000 m2"), "{table}");
+    assert!(table.contains("no_line                 0 lines,     0.0000 m"), "{table}");
+    assert!(!table.contains("-0.0"), "{table}");
+}
+
+/// ESC begins a command to the terminal, NUL ends a text in C, a carriage return overwrites a line.
+#[test]
+fn control_characters_from_files_names_and_arguments_never_reach_the_terminal() {
+    let bench = Bench::new("control");
+    let esc = "\u{1b}[31mX";
+    bench.write("word.msh", format!("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n{esc}\n"));
+    bench.write("nul.msh", "$MeshFormat\n4.1\0\r 0 8\n$EndMeshFormat\n");
+    bench.write("section.msh", format!("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n${esc}\n$Nodes\n\0\n"));
+    bench.write("named.msh", block_msh().replace("\"interface\"", &format!("\"inter{esc}\r\u{202e}face\"")));
+    bench.write("two\nlines.msh", block_msh());
+    bench.write("two\nlines.json", CASE);
+    bench.write(format!("key{esc}.json"), CASE.replace("\"supports\"", "\"sup\\u001bports\""));
+    let body = "interfaces.interface.body=no\nbody\u{7f}";
+    let rows: [(&[&str], i32, &str); 12] = [
+        (&["check", "block.json", "--mesh", "word.msh"], 1, "found \"\\u{1b}[31mX\""),
+        (&["check", "nul.msh"], 1, r"4.1\0"),
+        (&["check", "section.msh"], 1, r"\0"),
+        (&["check", "named.msh"], 0, r"inter\u{1b}[31mX\r\u{202e}face"),
+        (&["check", "block.json", "--mesh", "named.msh"], 1, r"inter\u{1b}[31mX\r\u{202e}face"),
+        (&["check", "two\nlines.msh"], 0, r"two\nlines.msh: 36 nodes"),
+        (&["check", "two\nlines.json"], 0, r"block.msh: 36 nodes"),
+        (&["check", "no\nsuch.json"], 1, r"no\nsuch.json"),
+        (&["check", &format!("key{esc}.json")], 1, r"sup\u{1b}ports"),
+        (&["check", "block.json", "--set", body], 1, r"no\nbody\u{7f}"),
+        (&["check", "block.json", "--set", "probes=[\"N\\u001b\\nM\"]"], 1, r"N\u{1b}\nM"),
+        (&["\u{1b}]0;title\u{7}\nfly"], 2, r"\u{1b}]0;title\u{7}\nfly"),
+    ];
+    for (arguments, code, shown) in rows {
+        let outcome = bench.run(arguments);
+        let all = format!("{}{}", outcome.stdout, outcome.stderr);
+        assert_eq!(outcome.code, Some(code), "{arguments:?}: {all}");
+        assert!(all.contains(shown), "{arguments:?}: no {shown} in {all}");
+        assert!(!all.chars().any(|c| c != '\n' && (c.is_control() || c == '\u{202e}')), "{arguments:?}: {all:?}");
+        assert!(code != 1 || outcome.stderr.lines().count() == 1, "one sentence, one line: {all}");
+    }
+    // files hold the names as they are
+    let probe = r#"probes=[{"name":"N\u001b","at":[2,5]}]"#;
+    let outcome = bench.run(&["run", "block.json", "--set", probe, "--out", "out\nput"]);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    assert!(
+        outcome.stdout.ends_with("results in out\\nput\n") && !outcome.stdout.contains('\u{1b}'),
+        "{}",
+        outcome.stdout
+    );
+    let summary = std::fs::read_to_string(bench.path("out\nput/summary.json")).unwrap();
+    assert!(summary.contains("N\\u001b") && !summary.contains('\u{1b}'), "{summary}");
+}
+
+#[test]
+fn large_numbers_take_no_more_room_than_small_ones() {
+    let bench = Bench::new("digits");
+    let far: String = block_msh().lines().map(|line| line.to_string() + "\n").collect();
+    let (head, rest) = far.split_once("$Nodes\n36\n").unwrap();
+    let (nodes, tail) = rest.split_once("$EndNodes").unwrap();
+    let grown: String = nodes
+        .lines()
+        .map(|line| {
+            let words: Vec<&str> = line.split(' ').collect();
+            format!("{} {}e150 {}e150 0\n", words[0], words[1], words[2])
+        })
+        .collect();
+    bench.write("far.msh", format!("{head}$Nodes\n36\n{grown}$EndNodes{tail}"));
+    for line in
+        ["check far.msh", "check block.json --mesh far.msh", "check block.json --mesh far.msh --set probes=[\"base\"]"]
+    {
+        let outcome = bench.run_line(line);
+        let all = format!("{}{}", outcome.stdout, outcome.stderr);
+        let longest = all.split(|c: char| !c.is_ascii_digit()).map(str::len).max();
+        assert!(longest <= Some(12), "{longest:?} digits in a row: {all}");
+        assert!(!all.contains("panicked"), "{all}");
+    }
 }

@@ -5,6 +5,7 @@ use super::case::{Boundary, Case};
 use super::mesh::Mesh;
 use super::resolve::{Load, Model, Target};
 use super::sides::{Sides, edge};
+use crate::number::place;
 use crate::physics::material::Material;
 use crate::{Error, Result};
 
@@ -64,7 +65,7 @@ fn refuse_support(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Resu
 /// Ground goes on behind an interface: its body.
 fn refuse_interface(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Result<()> {
     for (other, interface) in &case.interfaces {
-        let Ok(group) = mesh.group(other) else { continue };
+        let Ok(group) = mesh.group_of(other, 1, "interface") else { continue };
         if cells.iter().any(|cell| group.cells.binary_search(cell).is_ok()) {
             return Err(Error::input(format!(
                 "boundaries.{name}: it lies on the interface \"{other}\" of \"{}\", inside the model; boundaries are edges of the mesh \
@@ -114,10 +115,10 @@ fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Lo
         };
         let slides = |[dx, dy]: [f64; 2]| (dx * along[0] + dy * along[1]).abs() > (dx * along[1] - dy * along[0]).abs();
         if let Some((_, node)) = pushes.into_iter().find(|(direction, _)| slides(*direction)) {
-            let [x, y] = mesh.points[node];
+            let place = place(mesh.points[node]);
             return Err(Error::input(format!(
                 "boundaries.{name}: it is \"viscous\", and the load on \"{}\" pushes along it where the two meet, at \
-                 ({x:.4}, {y:.4}) m: the ground beyond such a side moves with the wave, but dashpots would hold on to it and \
+                 {place}: the ground beyond such a side moves with the wave, but dashpots would hold on to it and \
                  drain it; write \"free_field\" there, or take it out of boundaries and hold it across: \
                  \"supports\": {{ \"{name}\": [\"{}\"] }}",
                 load.group,

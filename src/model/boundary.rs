@@ -34,10 +34,10 @@ pub fn border(mesh: &Mesh, group: &Group, sides: &Sides) -> Result<Vec<(Border, 
         match sides.get(&edge(nodes)).map(Vec::as_slice) {
             Some([(face, side)]) => Ok((Border { shape: mesh.cells[cell].shape, nodes: side.clone() }, *face)),
             found => Err(Error::input(format!(
-                "load or boundary \"{}\": its line at {} has {} on its sides; it must lie on the border of the mesh",
+                "load or boundary \"{}\": its line at {} has {}; it must lie on the border of the mesh",
                 group.name,
                 mesh.place(cell),
-                if found.is_some() { "a surface on both" } else { "no surface" },
+                if found.is_some() { "a surface on both sides" } else { "no surface beside it" },
             ))),
         }
     };

@@ -8,6 +8,7 @@ use super::initial::Initial;
 use super::mesh::{Cell, Mesh};
 use super::resolve::{Load, Model, Target};
 use super::sides::{edge, open_sides};
+use crate::number::place;
 use crate::physics::shape::Shape;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -97,10 +98,9 @@ fn refuse_slope(name: &str, line: &Border, mesh: &Mesh) -> Result<()> {
     match lean <= UPRIGHT * (b[0] - a[0]).hypot(b[1] - a[1]) {
         true => Ok(()),
         false => Err(Error::input(format!(
-            "boundaries.{name}: \"free_field\" needs a straight, upright side, and it slopes at ({:.4}, {:.4}) m; a curve below \
+            "boundaries.{name}: \"free_field\" needs a straight, upright side, and it slopes at {}; a curve below \
              the ground takes \"viscous\"",
-            (a[0] + b[0]) / 2.,
-            (a[1] + b[1]) / 2.
+            place([0, 1].map(|i| (a[i] + b[i]) / 2.))
         ))),
     }
 }
@@ -115,10 +115,10 @@ fn free_field(name: &str, model: &Model, lines: Vec<Absorber>, outward: f64) -> 
     for pair in lines.windows(2) {
         let [above, below] = [&pair[0], &pair[1]].map(|l| ends(&l.line, &model.mesh));
         if above[1] != below[0] {
-            let [x, y] = model.mesh.points[above[1]];
+            let place = place(model.mesh.points[above[1]]);
             return Err(Error::input(format!(
                 "boundaries.{name}: a side with a free field runs without a break from the surface to the base, and this one does \
-                 not go on at ({x:.4}, {y:.4}) m; name each side's curve alone, and all of it"
+                 not go on at {place}; name each side's curve alone, and all of it"
             )));
         }
     }
@@ -141,10 +141,10 @@ fn refuse_part(name: &str, mesh: &Mesh, lines: &[Absorber]) -> Result<()> {
         None => Ok(()),
         Some(side) => {
             let end = ends.into_iter().find(|end| side.contains(end)).unwrap_or(side[0]);
-            let [x, y] = mesh.points[end];
+            let place = place(mesh.points[end]);
             Err(Error::input(format!(
                 "boundaries.{name}: a side with a free field runs from the surface to the base, and the edge of the mesh goes on \
-                 straight beyond this one's end at ({x:.4}, {y:.4}) m; name all of it, alone"
+                 straight beyond this one's end at {place}; name all of it, alone"
             )))
         }
     }
@@ -254,9 +254,9 @@ fn on_column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip, load:
         let meets = |line: &&Border| !at_top(line) && line.nodes.iter().any(|node| strip.origin.contains(node));
         if let Some(line) = lines.iter().find(meets) {
             let node = line.nodes.iter().find(|n| strip.origin.contains(n)).unwrap_or(&line.nodes[0]);
-            let [x, y] = model.mesh.points[*node];
+            let place = place(model.mesh.points[*node]);
             return Err(Error::input(format!(
-                "boundaries.{name}: the load on \"{}\" acts on the side or on its foot, at ({x:.4}, {y:.4}) m, and the ground beyond \
+                "boundaries.{name}: the load on \"{}\" acts on the side or on its foot, at {place}, and the ground beyond \
                  a free-field side feels only what acts on its surface or its weight; end the load before the side, or take \
                  \"viscous\" or a support there",
                 load.group

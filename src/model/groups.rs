@@ -18,7 +18,7 @@ pub(super) fn name_of(dimension: usize, tag: i64, names: &[PhysicalName]) -> Str
 /// The groups by dimension and name; those that the file names and no element belongs to are empty. With it how many
 /// elements stand twice in a group.
 ///
-/// Errors: two groups of one name.
+/// Errors: two groups of one name in one dimension, which Gmsh itself does not make.
 pub(super) fn named_groups(mut members: Members, names: &[PhysicalName], file: &str) -> Result<(Vec<Group>, usize)> {
     for named in names.iter().filter(|n| n.dimension <= 2) {
         members.entry((named.dimension, named.tag)).or_default();
@@ -31,12 +31,11 @@ pub(super) fn named_groups(mut members: Members, names: &[PhysicalName], file: &
         cells.dedup();
         twice += all - cells.len();
         let name = name_of(dimension, tag, names);
-        if let Some((other, twin)) = groups.iter().find(|(_, g)| g.name == name) {
-            let what = |dimension: usize, tag: i64| format!("{} {tag}", ["point", "curve", "surface"][dimension]);
+        if let Some((other, twin)) = groups.iter().find(|(_, g)| (g.dimension, &g.name) == (dimension, &name)) {
             return Err(Error::input(format!(
-                "{file} has two physical groups called \"{name}\", {} and {}; give each its own name",
-                what(twin.dimension, *other),
-                what(dimension, tag)
+                "{file} has two physical groups of {} called \"{name}\", {other} and {tag}, and the name would mean one of \
+                 them or both; give each its own name",
+                twin.kind()
             )));
         }
         groups.push((tag, Group { name, dimension, cells }));

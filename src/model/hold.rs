@@ -2,6 +2,7 @@
 
 use super::case::Analysis;
 use super::resolve::Model;
+use crate::number::place;
 use crate::{Error, Result};
 use std::collections::BTreeSet;
 
@@ -30,11 +31,10 @@ pub fn refuse_loose(model: &Model) -> Result<()> {
             let names: Vec<String> = surfaces.iter().map(|name| format!("\"{name}\"")).collect();
             let mean = |i: usize| nodes.iter().map(|&n| model.mesh.points[n][i]).sum::<f64>() / nodes.len() as f64;
             return Err(Error::input(format!(
-                "nothing holds {} round ({:.4}, {:.4}) m {how}: a steady load needs supports (or an interface to what is \
+                "nothing holds {} round {} {how}: a steady load needs supports (or an interface to what is \
                  held) in x, in y and against turning",
                 names.join(", "),
-                mean(0),
-                mean(1)
+                place([0, 1].map(mean))
             )));
         }
     }

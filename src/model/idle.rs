@@ -4,7 +4,7 @@ use super::case::{Analysis, Case, Quad4};
 use super::initial::Initial;
 use super::mesh::Shape;
 use super::resolve::{Load, Model};
-use crate::number::seconds;
+use crate::number::{place, seconds};
 
 /// What natural modes do not need.
 pub const NOTHING_ACTS: &str = "nothing loads or moves the model: there is no load, no gravity and no initial motion";
@@ -65,9 +65,9 @@ fn held_motion(case: &Case, model: &Model, name: &str) -> Option<String> {
     let nodes = model.mesh.nodes_of(model.mesh.group(name).ok()?);
     let held: Vec<usize> =
         nodes.into_iter().filter(|&n| (0..2).any(|axis| moves[axis] && model.fixed[n][axis])).collect();
-    let [x, y] = model.mesh.points[*held.first()?];
+    let place = place(model.mesh.points[*held.first()?]);
     Some(format!(
-        "initial.{name}: supports hold {} of its nodes against the motion it gives them, one at ({x:.4}, {y:.4}) m; they \
+        "initial.{name}: supports hold {} of its nodes against the motion it gives them, one at {place}; they \
          do not move",
         held.len()
     ))

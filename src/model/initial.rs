@@ -2,6 +2,7 @@
 
 use super::case::Case;
 use super::mesh::Mesh;
+use crate::number::place;
 use crate::{Error, Result};
 
 /// Motion of the nodes at t = 0.
@@ -24,13 +25,13 @@ pub fn initial(case: &Case, mesh: &Mesh) -> Result<Initial> {
         let new = [motion.displacement.map(f64::from), motion.velocity.map(f64::from)];
         for node in mesh.nodes_of(group) {
             if let Some((other, old)) = given[node].replace((name, new)).filter(|(_, old)| *old != new) {
-                let [x, y] = mesh.points[node];
+                let place = place(mesh.points[node]);
                 let [what, old, new] = match old[0] != new[0] {
                     true => ["displacement (m)".into(), format!("{:?}", old[0]), format!("{:?}", new[0])],
                     false => ["velocity (m/s)".into(), format!("{:?}", old[1]), format!("{:?}", new[1])],
                 };
                 return Err(Error::input(format!(
-                    "initial: \"{other}\" and \"{name}\" share the node at ({x:.4}, {y:.4}) m and give it different motions, \
+                    "initial: \"{other}\" and \"{name}\" share the node at {place} and give it different motions, \
                      {what} {old} and {new}: give both the same, or put an interface between them"
                 )));
             }

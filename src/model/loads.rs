@@ -16,10 +16,9 @@ use crate::{Error, Result};
 /// of their formula's range.
 pub fn loads(case: &Case, mesh: &Mesh, sides: &Sides, warnings: &mut Vec<String>) -> Result<Vec<Load>> {
     let mut load = |(name, load): (&str, &case::Load)| {
-        let group = |dimension| mesh.group_of(name, dimension, "load");
-        let lines = || -> Result<Vec<Border>> {
-            Ok(border(mesh, group(1)?, sides)?.into_iter().map(|(line, _)| line).collect())
-        };
+        let group = mesh.group_of(name, load.dimension(), "load")?;
+        let lines =
+            || -> Result<Vec<Border>> { Ok(border(mesh, group, sides)?.into_iter().map(|(line, _)| line).collect()) };
         let everywhere =
             |d: &Directed, target| Load { group: name.into(), pulse: d.pulse.clone(), target, front: None };
         Ok(match load {
@@ -30,10 +29,10 @@ pub fn loads(case: &Case, mesh: &Mesh, sides: &Sides, warnings: &mut Vec<String>
             }
             case::Load::Traction(d) => everywhere(d, Target::Traction { lines: lines()?, direction: d.direction }),
             case::Load::BodyForce(d) => {
-                everywhere(d, Target::BodyForce { cells: group(2)?.cells.clone(), direction: d.direction })
+                everywhere(d, Target::BodyForce { cells: group.cells.clone(), direction: d.direction })
             }
             case::Load::Force(d) => {
-                everywhere(d, Target::Force { nodes: mesh.nodes_of(group(0)?), direction: d.direction })
+                everywhere(d, Target::Force { nodes: mesh.nodes_of(group), direction: d.direction })
             }
         })
     };

@@ -1,6 +1,6 @@
 //! A plane mesh: points, cells, and the named groups that the whole interface to the user is made of.
 
-use crate::{Error, Result};
+use crate::number;
 
 pub use crate::physics::shape::Shape;
 
@@ -39,54 +39,17 @@ pub struct Mesh {
     pub tags: Vec<usize>,
     /// all faces of the file, and the lines and points that belong to a group
     pub cells: Vec<Cell>,
-    /// by dimension, then name; names are unique
+    /// by dimension, then name; names are unique within a dimension
     pub groups: Vec<Group>,
     /// faces that ran clockwise in the file and were turned
     pub turned: usize,
     /// elements that stood more than once in a group of the file, and stand once here
     pub dropped: usize,
+    /// what the file leaves open, as sentences for warnings
+    pub remarks: Vec<String>,
 }
 
 impl Mesh {
-    /// The group of that name, with at least one cell.
-    ///
-    /// Errors: there is none (the sentence lists those that exist), or it is empty.
-    pub fn group(&self, name: &str) -> Result<&Group> {
-        match self.groups.iter().find(|g| g.name == name) {
-            Some(group) if group.cells.is_empty() => {
-                Err(Error::input(format!("the physical group \"{name}\" in {} has no elements", self.name)))
-            }
-            Some(group) => Ok(group),
-            None => Err(Error::input(format!(
-                "no physical group \"{name}\" in {}; it has: {}",
-                self.name,
-                self.group_names()
-            ))),
-        }
-    }
-
-    fn group_names(&self) -> String {
-        let mut names: Vec<&str> = self.groups.iter().map(|g| g.name.as_str()).collect();
-        names.sort_unstable();
-        match names.is_empty() {
-            true => "no groups at all".into(),
-            false => names.join(", "),
-        }
-    }
-
-    /// The group of that name if it is of that dimension; `what` is the role it was given, for the sentence.
-    pub fn group_of(&self, name: &str, dimension: usize, what: &str) -> Result<&Group> {
-        const KIND: [&str; 3] = ["points", "curves", "surfaces"];
-        let group = self.group(name).map_err(|e| Error::input(format!("{what} \"{name}\": {e}")))?;
-        match group.dimension == dimension {
-            true => Ok(group),
-            false => Err(Error::input(format!(
-                "{what} \"{name}\" needs a group of {}; in {} it is one of {}",
-                KIND[dimension], self.name, KIND[group.dimension]
-            ))),
-        }
-    }
-
     /// The groups a cell belongs to.
     pub fn groups_of(&self, cell: usize) -> impl Iterator<Item = &Group> {
         let dimension = self.cells[cell].shape.dimension();
@@ -95,8 +58,7 @@ impl Mesh {
 
     /// Where a cell lies, for messages.
     pub fn place(&self, cell: usize) -> String {
-        let [x, y] = self.centroid(&self.cells[cell]);
-        format!("({x:.4}, {y:.4}) m")
+        number::place(self.centroid(&self.cells[cell]))
     }
 
     /// The nodes of the group's cells, mid-side nodes too, each once, ascending.
@@ -109,7 +71,8 @@ impl Mesh {
 
     /// Number of a group's points, or its length [m], or its area [m^2].
     pub fn measure_of(&self, group: &Group) -> f64 {
-        group.cells.iter().map(|&c| self.measure(&self.cells[c])).sum()
+        // a sum of no numbers is -0
+        group.cells.iter().fold(0., |sum, &c| sum + self.measure(&self.cells[c]))
     }
 
     /// 1 for a point, a line's length [m], a face's area [m^2] (negative if it runs clockwise); curved sides count.

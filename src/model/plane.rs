@@ -1,16 +1,16 @@
 //! From what a mesh file says to the plane mesh of the model.
 
+use super::degenerate::{Origin, sound};
 use super::groups::{Members, name_of, named_groups};
 use super::mesh::{Cell, Mesh, Shape};
 use super::msh::{self, Block, Msh, Node};
 use super::sides::refuse_unlike_sides;
 use super::twins::Twins;
+use crate::number::short_to;
 use crate::{Error, Result};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// A face is degenerate if its area is below this part of its longest side or diagonal squared.
-const DEGENERATE: f64 = 1e-12;
 /// A mesh is plane if its z vary by less than this part of its extent in x and y.
 const FLAT: f64 = 1e-6;
 
@@ -26,7 +26,7 @@ impl Mesh {
     /// cell stands once, faces run anticlockwise. Groups without a name are called `physical_DIMENSION_TAG`.
     ///
     /// Errors: no faces, a shape the solver does not know, nodes that are missing or not in one plane z = constant,
-    /// a cell without extent, two groups of one name, elements of first and second order side by side.
+    /// a cell without extent, two groups of one name and dimension, elements of first and second order side by side.
     pub fn from_msh(msh: &Msh, name: &str) -> Result<Mesh> {
         let kept: Vec<&Block> = msh.blocks.iter().filter(|b| is_kept(b)).collect();
         let shapes: Vec<Shape> = kept.iter().map(|b| shape_of(b, msh, name)).collect::<Result<_>>()?;
@@ -43,9 +43,11 @@ impl Mesh {
         let mut twins = Twins::new(mesh.points.len());
         let mut tags = Vec::new();
         for ((block, shape), old_nodes) in kept.iter().zip(shapes).zip(nodes) {
+            let group = block.physicals.first().map(|p| name_of(shape.dimension(), p.abs(), &msh.names));
+            let origin = |tag| Origin { tag, group: group.as_deref(), family: block.kind.family };
             for (nodes, &tag) in old_nodes.chunks_exact(shape.node_count()).zip(&block.element_tags) {
                 let nodes = nodes.iter().map(|&old| new_index[old]).collect();
-                let cell = mesh.sound(Cell { shape, nodes }, tag)?;
+                let cell = sound(&mesh, Cell { shape, nodes }, origin(tag))?;
                 let twin = twins.find(&cell, &mesh.cells);
                 tags.extend(twin.is_none().then_some(tag));
                 let id = twin.unwrap_or_else(|| mesh.add(cell, &mut twins));
@@ -56,6 +58,7 @@ impl Mesh {
         }
         (mesh.groups, mesh.dropped) = named_groups(members, &msh.names, name)?;
         refuse_unlike_sides(&mesh, &tags)?;
+        mesh.remarks.extend(msh.without_entities.then(|| without_entities(msh, name)));
         Ok(mesh)
     }
 
@@ -67,22 +70,14 @@ impl Mesh {
         twins.add(&self.cells);
         self.cells.len() - 1
     }
+}
 
-    /// The cell, if it has an extent.
-    fn sound(&self, cell: Cell, tag: usize) -> Result<Cell> {
-        let at = |n: &usize| self.points[*n];
-        let [x0, y0] = at(&cell.nodes[0]);
-        let reach = cell.corners().iter().map(at).map(|[x, y]| (x - x0).powi(2) + (y - y0).powi(2)).fold(0.0, f64::max);
-        let least = if cell.shape.dimension() == 2 { DEGENERATE * reach } else { 0.0 };
-        let twice = (1..cell.nodes.len()).any(|i| cell.nodes[..i].contains(&cell.nodes[i]));
-        if !twice && self.measure(&cell).abs() > least {
-            return Ok(cell);
-        }
-        let corners: Vec<String> = cell.corners().iter().map(at).map(|[x, y]| format!("({x}, {y})")).collect();
-        let what = ["point", "length", "area"][cell.shape.dimension()];
-        let place = corners.join(", ");
-        Err(Error::input(format!("element {tag} of {} has no {what}; its corners are {place}", self.name)))
-    }
+fn without_entities(msh: &Msh, name: &str) -> String {
+    format!(
+        "{name} has no section $Entities, so nothing says which of its {} physical groups an element belongs to: save it \
+         with gmsh, which writes that section",
+        msh.names.len()
+    )
 }
 
 /// Faces are the model; lines and points only say what their groups are.
@@ -194,7 +189,10 @@ fn check_plane(nodes: &[Node], used: &[bool], name: &str) -> Result<()> {
         None => Ok(()),
         Some(node) => Err(Error::input(format!(
             "{name} is not plane: node {} lies at z = {}, node {} at z = {}; the model must lie in a plane z = constant",
-            first.tag, first.xyz[2], node.tag, node.xyz[2]
+            first.tag,
+            short_to(12, first.xyz[2]),
+            node.tag,
+            short_to(12, node.xyz[2])
         ))),
     }
 }

@@ -3,7 +3,7 @@
 use super::case::{Case, Probe};
 use super::mesh::Mesh;
 use super::quality;
-use crate::number::short;
+use crate::number::{fixed, place, short};
 use crate::{Error, Result};
 
 /// A node whose motion is written at every step.
@@ -56,13 +56,12 @@ fn nearest_node(
     let distance = |&n: &usize| (mesh.points[n][0] - at[0]).hypot(mesh.points[n][1] - at[1]);
     let nearest = nodes.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let node = nearest.ok_or_else(|| Error::input(format!("probe \"{name}\": {} has no nodes", mesh.name)))?;
-    let [x, y] = mesh.points[node];
+    let place = place(mesh.points[node]);
+    let at_short = format!("({}, {}) m", short(at[0]), short(at[1]));
     if distance(&node) > longest_side_at(mesh, node) {
         return Err(Error::input(format!(
-            "probe \"{name}\" at ({}, {}) m lies outside of {}: the nearest node, ({x:.4}, {y:.4}) m, is {} m away, farther \
+            "probe \"{name}\" at {at_short} lies outside of {}: the nearest node, {place}, is {} m away, farther \
              than an element is long; the mesh spans {}",
-            at[0],
-            at[1],
             body.map_or(mesh.name.clone(), |body| format!("\"{body}\"")),
             short(distance(&node)),
             extent(mesh)
@@ -70,10 +69,8 @@ fn nearest_node(
     }
     if distance(&node) > 1e-9 {
         warnings.push(format!(
-            "probe \"{name}\" at ({}, {}) m is taken at the nearest node, ({x:.4}, {y:.4}) m, {:.3} m away",
-            at[0],
-            at[1],
-            distance(&node)
+            "probe \"{name}\" at {at_short} is taken at the nearest node, {place}, {} m away",
+            fixed(3, distance(&node))
         ));
     }
     Ok(node)

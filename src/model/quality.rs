@@ -1,6 +1,7 @@
 //! Shapes of the elements: angles, sides, and whether an element is folded.
 
 use super::mesh::{Cell, Mesh};
+use crate::number::place;
 use crate::physics::element::{self, Integral};
 use crate::{Error, Result};
 
@@ -32,9 +33,9 @@ pub fn refuse_folded(mesh: &Mesh) -> Result<()> {
         let at: Vec<[f64; 2]> = cell.nodes.iter().map(|&n| mesh.points[n]).collect();
         let rules = [Integral::Stiffness, Integral::Mass];
         if rules.iter().flat_map(|&rule| element::points(cell.shape, &at, rule)).any(|p| p.dv <= 0.) {
-            let [x, y] = mesh.centroid(cell);
+            let place = place(mesh.centroid(cell));
             return Err(Error::input(format!(
-                "the {:?} element at ({x:.4}, {y:.4}) m in {} is folded (its Jacobian determinant is not positive \
+                "the {:?} element at {place} in {} is folded (its Jacobian determinant is not positive \
                  everywhere): mesh that place more finely or move its points",
                 cell.shape, mesh.name
             )));

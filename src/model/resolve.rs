@@ -6,20 +6,21 @@ use super::case::{Analysis, Case, Damping, Integration, Integrator, Mass, Newton
 use super::free_field::{self, FreeField, free_fields};
 use super::initial::{Initial, initial};
 use super::loads::loads;
-use super::mesh::Mesh;
+use super::mesh::{Group, Mesh};
 use super::moving_front::MovingFront;
 use super::openings::Openings;
 use super::overflow::refuse_overflow;
 use super::probes::{NodeProbe, probes};
 use super::sampled::unseen;
 use super::split::{Joint, Opened, Pair, Seam};
+use crate::escape;
 use crate::number::seconds;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::physics::pulse::Pulse;
 use crate::physics::shape::Shape;
 use crate::{Error, Result};
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Everything the equations need, by index.
@@ -95,6 +96,17 @@ pub enum Target {
     BodyForce { cells: Vec<usize>, direction: [f64; 2] },
     /// force per metre of depth on each node along a unit vector
     Force { nodes: Vec<usize>, direction: [f64; 2] },
+}
+
+impl Target {
+    /// Of the group that the load acts on: 0 points, 1 curves, 2 surfaces.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Target::Pressure { .. } | Target::Traction { .. } => 1,
+            Target::BodyForce { .. } => 2,
+            Target::Force { .. } => 0,
+        }
+    }
 }
 
 impl Model {
@@ -185,7 +197,7 @@ fn materials(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Result<Mat
     let mut materials = Vec::new();
     let mut material_of = vec![None; mesh.cells.len()];
     for (name, m) in &case.materials {
-        if !mesh.groups.iter().any(|g| &g.name == name) {
+        if !mesh.has_group(name) {
             warnings.push(format!("material \"{name}\" is not used: {} has no such group", mesh.name));
             continue;
         }
@@ -225,7 +237,7 @@ fn no_material(case: &Case, mesh: &Mesh, cell: usize) -> Error {
 
 /// Interfaces whose curve or body is in the mesh; one of which neither is there is left out with a warning.
 fn seams(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Vec<Seam> {
-    let exists = |name: &str| mesh.groups.iter().any(|g| g.name == name);
+    let exists = |name: &str| mesh.has_group(name);
     let mut seams = Vec::new();
     for (curve, interface) in &case.interfaces {
         if exists(curve) || exists(&interface.body) {
@@ -317,18 +329,18 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
     })
 }
 
-/// Groups of curves and surfaces that the case does not mention.
+/// Groups of curves and surfaces that the case does not use.
 fn unused_groups(case: &Case, mesh: &Mesh) -> Option<String> {
-    let loaded: HashSet<&str> = case.loads.iter().map(|(group, _)| group).collect();
-    let is_used = |name: &String| {
-        case.materials.contains_key(name)
-            || case.interfaces.contains_key(name)
-            || case.supports.contains_key(name)
-            || case.initial.contains_key(name)
-            || case.boundaries.contains_key(name)
-            || loaded.contains(name.as_str())
-    };
-    let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !is_used(&g.name));
-    let names: Vec<&str> = unused.map(|g| g.name.as_str()).collect();
+    let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !is_used(g, case, mesh));
+    let names: Vec<_> = unused.map(|g| escape::name(&g.name)).collect();
     (!names.is_empty()).then(|| format!("groups of {} that the case does not use: {}", mesh.name, names.join(", ")))
+}
+
+fn is_used(group: &Group, case: &Case, mesh: &Mesh) -> bool {
+    let of_dimension = |dimension: usize, name: &str| group.dimension == dimension && group.is_called(name);
+    let of_any = |name: &str| group.is_called(name) && mesh.group(name).is_ok_and(|meant| meant == group);
+    case.materials.keys().any(|name| of_dimension(2, name))
+        || case.interfaces.keys().chain(case.boundaries.keys()).any(|name| of_dimension(1, name))
+        || case.loads.iter().any(|(name, load)| of_dimension(load.dimension(), name))
+        || case.supports.keys().chain(case.initial.keys()).any(|name| of_any(name))
 }

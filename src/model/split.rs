@@ -6,6 +6,7 @@
 
 use super::mesh::{Group, Mesh, Shape};
 use super::sides::{Edge, Sides, edge, solid_sides};
+use crate::number::place;
 use crate::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -55,7 +56,7 @@ pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
     let faces_at = solid_sides(mesh);
     let bodies = seams
         .iter()
-        .map(|seam| Ok(group_of(mesh, seam, &seam.body)?.cells.iter().copied().collect()))
+        .map(|seam| Ok(group_of(mesh, seam, &seam.body, 2)?.cells.iter().copied().collect()))
         .collect::<Result<Vec<BTreeSet<usize>>>>()?;
     let lines = border_lines(mesh, seams, &bodies, &faces_at)?;
     refuse_loose_ends(mesh, seams, &bodies, &lines, &faces_at)?;
@@ -68,8 +69,9 @@ pub fn open(mesh: &Mesh, seams: &[Seam]) -> Result<Opened> {
     Ok(Opened { mesh: opened.into(), pairs: pairs.into(), joints: joints.into(), sides })
 }
 
-fn group_of<'a>(mesh: &'a Mesh, seam: &Seam, name: &str) -> Result<&'a Group> {
-    mesh.group(name).map_err(|e| Error::input(format!("interface \"{}\" of body \"{}\": {e}", seam.curve, seam.body)))
+fn group_of<'a>(mesh: &'a Mesh, seam: &Seam, name: &str, dimension: usize) -> Result<&'a Group> {
+    let role = if dimension == 2 { format!("interface \"{}\": its body", seam.curve) } else { "interface".into() };
+    mesh.group_of(name, dimension, &role)
 }
 
 /// A line of a seam with the faces on its two sides.
@@ -83,21 +85,15 @@ struct BorderLine {
 fn border_lines(mesh: &Mesh, seams: &[Seam], bodies: &[BTreeSet<usize>], faces_at: &Sides) -> Result<Vec<BorderLine>> {
     let mut lines = Vec::new();
     for (seam, (Seam { curve, body }, faces)) in seams.iter().zip(bodies).enumerate() {
-        let group = group_of(mesh, &seams[seam], curve)?;
-        if group.dimension != 1 {
-            return Err(Error::input(format!(
-                "interface \"{curve}\" must be a group of curves in the geometry; it is a group of {}",
-                ["points", "curves", "surfaces"][group.dimension]
-            )));
-        }
+        let group = group_of(mesh, &seams[seam], curve, 1)?;
         for &cell in &group.cells {
             let nodes = &mesh.cells[cell].nodes;
             let sides = faces_at.get(&edge(nodes)).into_iter().flatten().map(|&(face, _)| face);
             let (inside, outside): (Vec<usize>, Vec<usize>) = sides.partition(|f| faces.contains(f));
             let (&[body_cell], &[ground_cell]) = (&inside[..], &outside[..]) else {
-                let [x, y] = mesh.points[nodes[0]];
+                let place = place(mesh.points[nodes[0]]);
                 return Err(Error::input(format!(
-                    "interface \"{curve}\" must be a border of its body \"{body}\": its line at ({x:.4}, {y:.4}) m has {} \
+                    "interface \"{curve}\" must be a border of its body \"{body}\": its line at {place} has {} \
                      elements of the body and {} others beside it, not one of each",
                     inside.len(),
                     outside.len()
@@ -133,9 +129,9 @@ fn refuse_loose_ends(
                 && (ends.contains(&edge.0) || ends.contains(&edge.1))
         });
         if let Some((&(a, b), _)) = still_joined {
-            let [x, y] = mesh.points[if ends.contains(&a) { a } else { b }];
+            let place = place(mesh.points[if ends.contains(&a) { a } else { b }]);
             return Err(Error::input(format!(
-                "interface \"{}\" ends at ({x:.4}, {y:.4}) m although \"{}\" goes on touching the ground there: let the curve \
+                "interface \"{}\" ends at {place} although \"{}\" goes on touching the ground there: let the curve \
                  close, or run to the border of the mesh",
                 seam.curve, seam.body
             )));

@@ -3,7 +3,7 @@
 
 use crate::model::mesh::Mesh;
 use crate::model::resolve::Model;
-use crate::number::seconds;
+use crate::number::{self, seconds};
 use crate::solve::system::{State, System};
 use std::collections::HashSet;
 
@@ -74,7 +74,7 @@ impl Motion {
     /// Says so where the equations hold no longer.
     pub fn warnings(&self) -> Vec<String> {
         let Motion { turn, jump } = self;
-        let place = |l: &Largest| format!("at ({:.4}, {:.4}) m, t = {}", l.at[0], l.at[1], seconds(l.time));
+        let place = |l: &Largest| format!("at {}, t = {}", number::place(l.at), seconds(l.time));
         let mut warnings = Vec::new();
         if jump.value > LARGE {
             warnings.push(format!(

@@ -107,8 +107,7 @@ struct Outer {
 
 /// The bodies of the interfaces, each with its faces.
 pub fn bodies(model: &Model) -> impl Iterator<Item = &Group> {
-    let groups = |body| model.mesh.groups.iter().find(move |g| g.dimension == 2 && &g.name == body);
-    model.bodies.iter().filter_map(groups)
+    model.bodies.iter().filter_map(|body| model.mesh.group_of(body, 2, "body").ok())
 }
 
 /// All pipe walls among the bodies of the interfaces; bodies of other shapes have none.

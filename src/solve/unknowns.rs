@@ -7,6 +7,7 @@
 use super::jump_sides::JumpSides;
 use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
+use crate::number::place;
 use crate::sparse::{Graph, Orders};
 use crate::{Error, Result};
 use std::collections::BTreeSet;
@@ -141,9 +142,9 @@ fn refuse_rings(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair]) -> Result<()> 
         for pair in pairs.iter().filter(|p| !fixed[p.ground][axis] || !fixed[p.body][axis]) {
             let (ground, body) = (end(&joined_to, pair.ground), end(&joined_to, pair.body));
             if ground == body {
-                let [x, y] = mesh.points[pair.ground];
+                let place = place(mesh.points[pair.ground]);
                 return Err(Error::input(format!(
-                    "the interfaces at ({x:.4}, {y:.4}) m close a ring of node pairs, or a support holds both ends of a \
+                    "the interfaces at {place} close a ring of node pairs, or a support holds both ends of a \
                      chain of them: let at most one body meet the ground in each point"
                 )));
             }

@@ -7,12 +7,13 @@ use super::mesh_report::{self, counts, groups, shapes};
 use super::overflow::refuse_overflow;
 use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
+use crate::escape;
 use crate::model::case::{Analysis, Boundary, Case};
 use crate::model::hold::refuse_loose;
 use crate::model::mesh::{Group, Mesh};
 use crate::model::quality;
 use crate::model::resolve::Model;
-use crate::number::seconds;
+use crate::number::{fixed, seconds, short};
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
 use crate::results::ring;
@@ -58,27 +59,33 @@ fn report(parts: &[String]) -> String {
     parts.iter().filter(|p| !p.is_empty()).map(String::as_str).collect::<Vec<_>>().join("\n")
 }
 
-/// What the case makes of a name.
+/// What the case uses a group for.
 fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
+    let is = |dimension: usize, name: &str| group.dimension == dimension && group.is_called(name);
+    // supports and initial do not say which dimension they mean
+    let meant = |name: &str| {
+        group.is_called(name)
+            && model.mesh.group(name).is_ok_and(|g| (g.dimension, &g.name) == (group.dimension, &group.name))
+    };
     let mut roles = Vec::new();
-    if let Some((_, material)) = model.materials.iter().find(|(name, _)| name == &group.name) {
+    if let Some((_, material)) = model.materials.iter().find(|(name, _)| is(2, name)) {
         roles.push(material_role(material));
     }
-    if let Some(seam) = model.seams.iter().position(|s| s.curve == group.name) {
+    if let Some(seam) = model.seams.iter().position(|s| is(1, &s.curve)) {
         roles.push(interface_role(seam, model));
     }
-    if let Some(axes) = case.supports.get(&group.name) {
+    for (_, axes) in case.supports.iter().filter(|(name, _)| meant(name)) {
         let names: Vec<&str> = axes.iter().map(|a| ["x", "y"][a.index()]).collect();
         roles.push(format!("support: u_{} = 0", names.join(" = u_")));
     }
-    if case.initial.contains_key(&group.name) {
+    if case.initial.keys().any(|name| meant(name)) {
         roles.push("initial motion".into());
     }
-    if let Some(kind) = case.boundaries.get(&group.name) {
+    if let Some((_, kind)) = case.boundaries.iter().find(|(name, _)| is(1, name)) {
         roles.push(boundary_role(*kind, case.analysis).into());
     }
-    roles.extend(model.loads.iter().filter(|load| load.group == group.name).map(loads::role));
-    if model.probes.iter().any(|p| p.name == group.name) {
+    roles.extend(model.loads.iter().filter(|load| is(load.target.dimension(), &load.group)).map(loads::role));
+    if model.probes.iter().any(|p| is(0, &p.name)) {
         roles.push("probe".into());
     }
     if roles.is_empty() { "not used".into() } else { roles.join("; ") }
@@ -94,14 +101,14 @@ fn boundary_role(kind: Boundary, analysis: Analysis) -> &'static str {
 
 fn material_role(m: &Material) -> String {
     format!(
-        "material: E {:.4} MPa, nu {}, rho {} kg/m3; c_p {:.1}, c_s {:.1} m/s; impedances {:.4}, {:.4} MPa s/m",
-        m.young / 1e6,
-        m.poisson,
-        m.density,
-        m.p_speed(),
-        m.s_speed(),
-        m.density * m.p_speed() / 1e6,
-        m.density * m.s_speed() / 1e6
+        "material: E {} MPa, nu {}, rho {} kg/m3; c_p {}, c_s {} m/s; impedances {}, {} MPa s/m",
+        fixed(4, m.young / 1e6),
+        short(m.poisson),
+        short(m.density),
+        fixed(1, m.p_speed()),
+        fixed(1, m.s_speed()),
+        fixed(4, m.density * m.p_speed() / 1e6),
+        fixed(4, m.density * m.s_speed() / 1e6)
     )
 }
 
@@ -135,11 +142,14 @@ fn waves(model: &Model) -> String {
         let carried = |speed: f64| speed / (ELEMENTS_PER_WAVELENGTH * longest);
         let courant = |h: f64| material.p_speed() * model.time.step / h;
         text += &format!(
-            "  {name:<18} h {shortest:.4} to {longest:.4} m: P waves to {:.0} Hz, S waves to {:.0} Hz; steps {:.2} to {:.2}\n",
-            carried(material.p_speed()),
-            carried(material.s_speed()),
-            courant(longest),
-            courant(shortest)
+            "  {:<18} h {} to {} m: P waves to {} Hz, S waves to {} Hz; steps {} to {}\n",
+            escape::name(name),
+            fixed(4, shortest),
+            fixed(4, longest),
+            fixed(0, carried(material.p_speed())),
+            fixed(0, carried(material.s_speed())),
+            fixed(2, courant(longest)),
+            fixed(2, courant(shortest))
         );
     }
     text

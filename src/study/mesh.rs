@@ -3,6 +3,7 @@
 use super::content::Content;
 use super::meshing::{Outcome, ensure_mesh};
 use super::run::Request;
+use crate::escape::one_line;
 use crate::model::case::{Case, Geometry};
 use crate::model::mesh::Mesh;
 use crate::model::msh;
@@ -76,12 +77,12 @@ struct Source {
 
 fn found(path: PathBuf) -> Result<Source> {
     let content = Content::read(&path).map_err(|e| msh::not_read(&path, &e))?;
-    Ok(Source { told: format!("mesh {}", path.display()), path, content, warnings: vec![] })
+    Ok(Source { told: one_line(&format!("mesh {}", path.display())).into_owned(), path, content, warnings: vec![] })
 }
 
 fn made(script: &Path, parameters: &BTreeMap<String, f64>, path: PathBuf) -> Result<Source> {
     let meshing = ensure_mesh(script, parameters, &path)?;
-    let told = meshing.to_string();
+    let told = one_line(&meshing.to_string()).into_owned();
     let warnings = match meshing.outcome {
         Outcome::Unchanged => vec![],
         Outcome::Unchecked { reason } => vec![format!("{} may be stale: {reason}", path.display())],

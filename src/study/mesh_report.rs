@@ -1,7 +1,9 @@
 //! What `check` says of a mesh by itself: its groups, the shapes of its elements, what is doubtful about it.
 
+use crate::escape;
 use crate::model::mesh::{Group, Mesh};
 use crate::model::quality;
+use crate::number::{fixed, place};
 use std::collections::BTreeMap;
 
 /// Below this an element's stiffness suffers.
@@ -19,14 +21,11 @@ pub fn counts(mesh: &Mesh) -> String {
 pub fn groups(mesh: &Mesh, taken_for: impl Fn(&Group) -> String) -> String {
     let row = |group: &Group| {
         let size = match group.dimension {
-            0 => mesh.nodes_of(group).first().map_or(String::new(), |&n| {
-                let [x, y] = mesh.points[n];
-                format!("point at ({x:.4}, {y:.4}) m")
-            }),
-            1 => format!("{:6} lines, {:10.4} m", group.cells.len(), mesh.measure_of(group)),
-            _ => format!("{:6} elements, {:10.4} m2", group.cells.len(), mesh.measure_of(group)),
+            0 => mesh.nodes_of(group).first().map_or(String::new(), |&n| format!("point at {}", place(mesh.points[n]))),
+            1 => format!("{:6} lines, {:>10} m", group.cells.len(), fixed(4, mesh.measure_of(group))),
+            _ => format!("{:6} elements, {:>10} m2", group.cells.len(), fixed(4, mesh.measure_of(group))),
         };
-        format!("  {:<18} {size:<30} {}", group.name, taken_for(group)).trim_end().to_string() + "\n"
+        format!("  {:<18} {size:<30} {}", escape::name(&group.name), taken_for(group)).trim_end().to_string() + "\n"
     };
     mesh.groups.iter().rev().map(row).fold("groups\n".to_string(), |text, row| text + &row)
 }
@@ -34,13 +33,9 @@ pub fn groups(mesh: &Mesh, taken_for: impl Fn(&Group) -> String) -> String {
 /// The worst angle and the sides, each with its place.
 pub fn shapes(mesh: &Mesh) -> String {
     let faces: Vec<usize> = (0..mesh.cells.len()).filter(|&c| mesh.cells[c].shape.dimension() == 2).collect();
-    let place = |cell: usize| {
-        let [x, y] = mesh.centroid(&mesh.cells[cell]);
-        format!("at ({x:.4}, {y:.4}) m")
-    };
     let extreme = |value: &dyn Fn(usize) -> f64| {
         let worst = faces.iter().copied().min_by(|&a, &b| value(a).total_cmp(&value(b)));
-        worst.map(|cell| (value(cell), place(cell)))
+        worst.map(|cell| (value(cell), mesh.place(cell)))
     };
     let rows = [
         ("smallest angle", "degrees", 1., extreme(&|c| quality::angles(mesh, &mesh.cells[c])[0])),
@@ -49,16 +44,16 @@ pub fn shapes(mesh: &Mesh) -> String {
         ("longest side", "m", -1., extreme(&|c| -quality::sides(mesh, &mesh.cells[c])[1])),
     ];
     let row = |(what, unit, sign, found): &(&str, &str, f64, Option<(f64, String)>)| {
-        found
-            .as_ref()
-            .map_or(String::new(), |(value, place)| format!("  {what:<15} {:9.4} {unit} {place}\n", sign * value))
+        found.as_ref().map_or(String::new(), |(value, place)| {
+            format!("  {what:<15} {:>9} {unit} at {place}\n", fixed(4, sign * value))
+        })
     };
     rows.iter().map(row).fold("elements\n".to_string(), |text, row| text + &row)
 }
 
 /// Bad shapes, empty groups, elements that stood twice.
 pub fn warnings(mesh: &Mesh) -> Vec<String> {
-    let mut warnings = Vec::new();
+    let mut warnings = mesh.remarks.clone();
     let faces = (0..mesh.cells.len()).filter(|&c| mesh.cells[c].shape.dimension() == 2);
     let angles = faces.map(|c| (quality::angles(mesh, &mesh.cells[c])[0], c));
     let bad: Vec<(f64, usize)> = angles.filter(|(angle, _)| *angle < SMALLEST_GOOD_ANGLE).collect();
@@ -71,7 +66,7 @@ pub fn warnings(mesh: &Mesh) -> Vec<String> {
             bad.len()
         ));
     }
-    let empty: Vec<&str> = mesh.groups.iter().filter(|g| g.cells.is_empty()).map(|g| g.name.as_str()).collect();
+    let empty: Vec<_> = mesh.groups.iter().filter(|g| g.cells.is_empty()).map(|g| escape::name(&g.name)).collect();
     if !empty.is_empty() {
         warnings.push(format!("groups of {} without any element: {}", mesh.name, empty.join(", ")));
     }

@@ -3,6 +3,7 @@
 use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use super::screen::Screen;
+use crate::escape::one_line;
 use crate::model::idle::NOTHING_ACTS;
 use crate::results::file;
 use crate::results::folder::claim;
@@ -45,7 +46,8 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
         let shape = State { q: mode.shape.clone(), ..rest.clone() };
         let path = folder.join(format!("{}_mode_{}.vtu", case.name(), i + 1));
         file::replace(&path, &grid.vtu(&Frame::of(&prepared.model, &prepared.system, &shape), &rest.q)?)?;
-        table += &format!("{:4}  {:14.6}  {}\n", i + 1, mode.frequency, path.display());
+        table += &one_line(&format!("{:4}  {:14.6}  {}", i + 1, mode.frequency, path.display()));
+        table.push('\n');
     }
     Ok(table)
 }

@@ -5,6 +5,7 @@ use super::memory::refuse_too_large;
 use super::orders;
 use crate::model::case::{Analysis, Rayleigh as Damping};
 use crate::model::resolve::Model;
+use crate::number::place;
 use crate::solve::modes::{NaturalMode, natural_modes, rayleigh};
 use crate::solve::system::{Rayleigh, System};
 use crate::sparse::{NotPositiveDefinite, Orders, Symbolic};
@@ -96,9 +97,9 @@ impl Prepared {
 
     /// Where a matrix stopped being positive definite, in the user's words.
     pub fn not_definite(&self, error: NotPositiveDefinite) -> Error {
-        let [x, y] = self.model.mesh.points[self.system.unknowns.node_of(error.unknown)];
+        let place = place(self.model.mesh.points[self.system.unknowns.node_of(error.unknown)]);
         Error::input(format!(
-            "the equations have no unique solution near ({x:.4}, {y:.4}) m: is an element folded, or its mass zero?"
+            "the equations have no unique solution near {place}: is an element folded, or its mass zero?"
         ))
     }
 

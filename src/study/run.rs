@@ -8,6 +8,7 @@ use super::prepare::Prepared;
 use super::recorder::{Ending, Recorder};
 use super::screen::{Screen, tell};
 use super::unsettled;
+use crate::escape::one_line;
 use crate::model::case::{Analysis, Case};
 use crate::model::hold::refuse_loose;
 use crate::model::idle::idle;
@@ -163,7 +164,7 @@ fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> 
     };
     let summary = march_and_write().map_err(|error| with_what_is_left(error, &folder))?;
     folder.remove_previous()?;
-    Ok(summary.table() + &format!("results in {}\n", folder.path().display()))
+    Ok(summary.table() + &one_line(&format!("results in {}", folder.path().display())) + "\n")
 }
 
 /// The state at t = 0, the unknowns that displacements are counted from, and the march from there.

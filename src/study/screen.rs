@@ -1,5 +1,6 @@
 //! What a run tells on stderr: sentences, warnings, and a progress bar on a terminal or plain lines in a log.
 
+use crate::escape;
 use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
@@ -74,18 +75,20 @@ pub fn show_copy(text: &str) {
     }
 }
 
-/// Prints what stands nowhere else. A reader that closed the pipe has seen enough.
+/// Prints what stands nowhere else, control characters but line breaks as escapes. A reader that closed the pipe has seen
+/// enough.
 ///
 /// Error: stdout cannot be written.
 pub fn show(text: &str) -> Result<()> {
     let mut stdout = std::io::stdout();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(escape::lines(text).as_bytes()).and_then(|()| stdout.flush()) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::input(format!("stdout cannot be written: {e}"))),
         _ => Ok(()),
     }
 }
 
-/// A line on stderr. That nobody reads it (`2>&1 | head`) is no reason to stop.
+/// One line on stderr, control characters and line breaks in it as escapes. That nobody reads it (`2>&1 | head`) is no
+/// reason to stop.
 pub fn tell(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", escape::one_line(line));
 }

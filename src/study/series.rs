@@ -6,6 +6,7 @@ use super::inputs::made_from;
 use super::mesh;
 use super::run::{self, Request};
 use super::screen::tell;
+use crate::escape::one_line;
 use crate::model::case::{Case, Geometry};
 use crate::results::file;
 use crate::results::folder::summary;
@@ -61,7 +62,7 @@ impl<'a> Series<'a> {
     pub fn write(&self, name: &str, content: &str) -> Result<String> {
         let path = self.folder.join(name);
         file::remove_parts_of(&path);
-        file::replace(&path, content.as_bytes()).map(|()| path.display().to_string())
+        file::replace(&path, content.as_bytes()).map(|()| one_line(&path.display().to_string()).into_owned())
     }
 
     /// Computes a variant, or takes what was computed: same case, mesh and program.

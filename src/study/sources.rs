@@ -1,7 +1,7 @@
 //! The files that a mesh depends on beside its script: what gmsh reports, what the scripts name, and what gmsh looks
 //! for by itself.
 
-use super::content::{Content, sha256};
+use super::content::Content;
 use super::mentions::{Mentions, mentions};
 use std::collections::{BTreeMap, BTreeSet};
 use std::os::unix::fs::MetadataExt;

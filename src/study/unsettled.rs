@@ -4,7 +4,7 @@ use super::prepare::Prepared;
 use crate::Error;
 use crate::model::case::Analysis;
 use crate::model::split::Seam;
-use crate::number::seconds;
+use crate::number::{place, seconds};
 use crate::physics::joint::Status;
 use crate::solve::march::MAX_CUTS;
 use crate::solve::unsettled::{Place, Unsettled};
@@ -102,12 +102,12 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
                  newton.tolerance = {tolerance:e}"
             )
         }
-        Unsettled::Overflow(place) => {
-            let at = match *place {
+        Unsettled::Overflow(first) => {
+            let at = match *first {
                 Place::JointPoint(i) => format!(", first at {}", places(prepared, &[i])),
                 Place::Node(node) => {
-                    let [x, y] = prepared.model.mesh.points[node];
-                    format!(", first at the node at ({x:.4}, {y:.4}) m")
+                    let place = place(prepared.model.mesh.points[node]);
+                    format!(", first at the node at {place}")
                 }
                 Place::Matrix => ", in the matrix of the shortened step".into(),
             };
@@ -136,8 +136,8 @@ fn seams(prepared: &Prepared, point: usize) -> impl Iterator<Item = &Seam> {
 /// Up to six places of joint points; joints that meet in a corner, or under two laws, have a point each there.
 fn places(prepared: &Prepared, points: &[usize]) -> String {
     let of_point = |&i: &usize| {
-        let [x, y] = prepared.system.interface.points[i].at;
-        seams(prepared, i).map(move |seam| format!("{} at ({x:.4}, {y:.4}) m", seam.curve))
+        let place = place(prepared.system.interface.points[i].at);
+        seams(prepared, i).map(move |seam| format!("{} at {place}", seam.curve))
     };
     let mut places: Vec<String> = points.iter().flat_map(of_point).collect();
     places.sort_unstable();

@@ -43,6 +43,17 @@ pub enum Load {
     ),
 }
 
+impl Load {
+    /// Of the group that it acts on: 0 points, 1 curves, 2 surfaces.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Load::Pressure(_) | Load::Traction(_) => 1,
+            Load::BodyForce(_) => 2,
+            Load::Force(_) => 0,
+        }
+    }
+}
+
 /// How a pressure acts on a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pressure {

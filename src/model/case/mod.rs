@@ -60,7 +60,7 @@ pub struct Case {
     /// Curves that open into joints between a body and the ground. Default: none.
     #[serde(default)]
     pub interfaces: BTreeMap<String, Interface>,
-    /// Directions in which a curve or point group is held. Default: none.
+    /// Directions in which a group is held; "curve:NAME" where points and curves have the same name. Default: none.
     #[serde(default)]
     pub supports: BTreeMap<String, Vec<Axis>>,
     /// Boundaries by curve group that let waves out: "viscous" (base), "free_field" (upright sides, where the layers go on
@@ -77,7 +77,7 @@ pub struct Case {
     /// Gravity, downwards [m/s^2]; a dynamic calculation starts from the equilibrium under it. Default: 0.
     #[serde(default, deserialize_with = "range::not_negative")]
     pub gravity: Acceleration,
-    /// Velocity and displacement at t = 0 by group; the rest is at rest. Default: none.
+    /// Velocity and displacement at t = 0 by group, named as in supports; the rest is at rest. Default: none.
     #[serde(default)]
     pub initial: BTreeMap<String, Initial>,
     /// How elements are formulated.

@@ -1,5 +1,6 @@
 //! The bytes of a mesh file and a place in them: numbers in ASCII or binary, lines, and sentences that say where.
 
+use super::markers::Markers;
 use crate::{Error, Result};
 
 /// How the numbers of a file are written.
@@ -10,6 +11,9 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
+/// Some editors put it before text in UTF-8.
+pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 pub(super) struct Tokens<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -17,12 +21,25 @@ pub(super) struct Tokens<'a> {
     /// the section being read, for messages
     pub(super) section: String,
     pub(super) encoding: Encoding,
+    /// of sections that are not read; found when the first of them is met
+    markers: Option<Markers<'a>>,
 }
 
 impl<'a> Tokens<'a> {
     pub(super) fn new(bytes: &'a [u8], file: &'a str) -> Self {
         let (section, encoding) = (String::new(), Encoding::Ascii);
-        Tokens { bytes, at: 0, file, section, encoding }
+        let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        Tokens { bytes, at, file, section, encoding, markers: None }
+    }
+
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Goes back to a place, where an error is then reported.
+    pub(super) fn back_to(&mut self, at: usize) -> &Self {
+        self.at = at;
+        self
     }
 
     pub(super) fn is_binary(&self) -> bool {
@@ -33,7 +50,7 @@ impl<'a> Tokens<'a> {
     fn place(&self) -> String {
         let section = match self.section.as_str() {
             "" => String::new(),
-            name => format!(", ${name}"),
+            name => format!(", ${}", beginning(name.as_bytes())),
         };
         let at = self.at.min(self.bytes.len());
         if self.is_binary() {
@@ -47,11 +64,20 @@ impl<'a> Tokens<'a> {
         Error::input(format!("{}: {}", self.place(), what.as_ref()))
     }
 
-    fn truncated(&self) -> Error {
+    /// A sentence on the whole file, without a place in it.
+    pub(super) fn of_file(&self, what: impl AsRef<str>) -> Error {
+        Error::input(format!("{}: {}", self.file, what.as_ref()))
+    }
+
+    pub(super) fn file(&self) -> &str {
+        self.file
+    }
+
+    pub(super) fn truncated(&self) -> Error {
         self.error("the file ends here, in the middle of the section; it was cut off, make the mesh again")
     }
 
-    fn skip_space(&mut self) {
+    pub(super) fn skip_space(&mut self) {
         let space = self.bytes[self.at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
         self.at += space;
     }
@@ -75,8 +101,7 @@ impl<'a> Tokens<'a> {
 
     fn expected(&mut self, what: &str, word: &[u8]) -> Error {
         self.at -= word.len();
-        let found = String::from_utf8_lossy(&word[..word.len().min(24)]);
-        self.error(format!("expected {what}, found \"{found}\""))
+        self.error(format!("expected {what}, found \"{}\"", beginning(word)))
     }
 
     /// The rest of the line without its end; moves behind it.
@@ -87,22 +112,15 @@ impl<'a> Tokens<'a> {
         rest[..length].trim_ascii_end()
     }
 
-    /// A `$Name` line: the name. Only ASCII letters and digits are a name.
-    pub(super) fn section_mark(&mut self) -> Result<String> {
-        self.skip_space();
-        let start = self.at;
-        let line = self.line();
-        let name = line.strip_prefix(b"$").unwrap_or_default();
-        if name.is_empty() || !name.iter().all(|b| b.is_ascii_alphanumeric()) {
-            self.at = start;
-            return Err(self.expected_section(line));
+    /// The name of the next `$Name` line; text between sections is passed over, as Gmsh does. None at the end of the file.
+    pub(super) fn next_section(&mut self) -> Option<String> {
+        while !self.at_end() {
+            let line = self.line();
+            if let Some(name) = section_name(line).filter(|name| !name.starts_with(b"End")) {
+                return Some(String::from_utf8_lossy(name).into_owned());
+            }
         }
-        Ok(String::from_utf8_lossy(name).into_owned())
-    }
-
-    fn expected_section(&self, line: &[u8]) -> Error {
-        let found: String = String::from_utf8_lossy(line).chars().take(24).collect();
-        self.error(format!("expected a section such as $Nodes, found \"{}\"", found.escape_debug()))
+        None
     }
 
     /// The line `$EndNAME` of the section being read.
@@ -115,18 +133,13 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// Moves behind `$EndNAME` of a section that is not read; binary content is searched through, too.
-    pub(super) fn skip_section(&mut self) -> Result<()> {
-        let end = format!("\n$End{}", self.section);
-        let from = self.at.saturating_sub(1);
-        match find(&self.bytes[from..], end.as_bytes()) {
-            Some(offset) => {
-                self.at = from + offset;
-                self.section_end()
-            }
-            None => {
-                Err(self.error(format!("${0} has no $End{0}; the file was cut off, make the mesh again", self.section)))
-            }
+    /// Moves behind the `$EndNAME` line of a section that is not read. Where it has none, its content is passed over like
+    /// text between sections.
+    pub(super) fn skip_section(&mut self) {
+        let markers = self.markers.get_or_insert_with(|| Markers::find(self.bytes, self.at));
+        if let Some(end) = markers.end_of(self.section.as_bytes(), self.at) {
+            self.at = end;
+            self.line();
         }
     }
 
@@ -224,8 +237,19 @@ impl<'a> Tokens<'a> {
     }
 }
 
-fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
-    bytes.windows(wanted.len()).position(|w| w == wanted)
+/// The first characters of a word or a line, as messages show them.
+pub(super) fn beginning(text: &[u8]) -> String {
+    const SHOWN: usize = 24;
+    let shown: String = String::from_utf8_lossy(text).chars().take(SHOWN).collect();
+    let more = if String::from_utf8_lossy(text).chars().count() > SHOWN { "..." } else { "" };
+    format!("{}{more}", shown.escape_debug())
+}
+
+/// `Name` of a line `$Name`; blanks before it and words behind it do not matter.
+pub(super) fn section_name(line: &[u8]) -> Option<&[u8]> {
+    let rest = line.trim_ascii_start().strip_prefix(b"$")?;
+    let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+    (length > 0).then_some(&rest[..length])
 }
 
 fn integer(word: &[u8]) -> Option<i64> {

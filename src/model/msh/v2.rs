@@ -1,9 +1,18 @@
-//! The sections of MSH 2.2: an element in several groups is written once for each of them.
+//! The sections of MSH 2.0 to 2.2: an element in several groups is written once for each of them.
 
 use super::elements::{ElementType, element_type};
 use super::tokens::Tokens;
 use super::{Block, Node, partitioned};
 use crate::Result;
+
+/// What an element's third tag is, if it has one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Layout {
+    /// how many partitions follow; without any following, it says nothing
+    V22,
+    /// a partition: a label that changes neither elements nor nodes
+    V20,
+}
 
 /// `n`, then n times `tag x y z`.
 pub(super) fn nodes(tokens: &mut Tokens) -> Result<Vec<Node>> {
@@ -19,7 +28,7 @@ pub(super) fn nodes(tokens: &mut Tokens) -> Result<Vec<Node>> {
 
 /// `n`, then in ASCII n times `tag type n_tags tag... node...`;
 /// in binary runs of `type n n_tags` followed by n times `tag tag... node...`.
-pub(super) fn elements(tokens: &mut Tokens) -> Result<Vec<Block>> {
+pub(super) fn elements(tokens: &mut Tokens, layout: Layout) -> Result<Vec<Block>> {
     let announced = count_line(tokens)?;
     let count = tokens.checked_count(announced, 4, 8, "elements")?;
     let mut blocks = Vec::new();
@@ -38,7 +47,8 @@ pub(super) fn elements(tokens: &mut Tokens) -> Result<Vec<Block>> {
         }
         for _ in 0..run {
             let tag = tag.map_or_else(|| tokens.unsigned(Tokens::int), Ok)?;
-            element(tokens, tag, kind, tags, &mut blocks)?;
+            let physical = physical(tokens, tags, layout)?;
+            element(tokens, Element { tag, kind, physical }, &mut blocks)?;
         }
         read += run;
     }
@@ -50,16 +60,28 @@ fn type_of(tokens: &mut Tokens) -> Result<ElementType> {
     element_type(number).ok_or_else(|| tokens.error(format!("element type {number} is unknown")))
 }
 
-/// `physical entity [n_partitions partition...] node...`: adds the element to the last block or begins another.
-fn element(tokens: &mut Tokens, tag: usize, kind: ElementType, tags: usize, blocks: &mut Vec<Block>) -> Result<()> {
+/// `physical entity [n_partitions partition...]`: the physical group, 0 for none.
+fn physical(tokens: &mut Tokens, tags: usize, layout: Layout) -> Result<i64> {
     let mut physical = 0;
     for i in 0..tags {
         match (i, tokens.int()?) {
             (0, value) => physical = value,
-            (2, partitions) if partitions != 0 => return Err(partitioned(tokens)),
+            (2, partitions) if partitions != 0 && tags > 3 && layout == Layout::V22 => return Err(partitioned(tokens)),
             _ => {}
         }
     }
+    Ok(physical)
+}
+
+/// What stands before an element's nodes.
+struct Element {
+    tag: usize,
+    kind: ElementType,
+    physical: i64,
+}
+
+/// `node...`: adds the element to the last block or begins another.
+fn element(tokens: &mut Tokens, Element { tag, kind, physical }: Element, blocks: &mut Vec<Block>) -> Result<()> {
     let physicals: &[i64] = if physical == 0 { &[] } else { &[physical] };
     if !blocks.last().is_some_and(|b| b.kind == kind && b.physicals == physicals) {
         let physicals = physicals.to_vec();

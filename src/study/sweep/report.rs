@@ -4,6 +4,7 @@ use super::group::Ended;
 use super::job::Failure;
 use super::shelf::Shelf;
 use super::table::{self, Row};
+use crate::escape::one_line;
 use crate::study::run::interrupted;
 use crate::study::screen::{Screen, show_copy};
 use crate::{Error, Result};
@@ -90,7 +91,8 @@ impl<'a> Report<'a> {
     pub fn close(mut self, stopped: Result<()>) -> Result<String> {
         let saved = self.save();
         let (count, done) = (self.rows.len(), self.rows.iter().filter(|row| row.is_done()).count());
-        let folder = self.shelf.path().display();
+        let folder = self.shelf.path().display().to_string();
+        let folder = one_line(&folder);
         let table = table::text(&self.rows) + &format!("results in {folder}\n");
         let goes_on =
             format!("{done} of {count} runs are done and stay in {folder}: the same command goes on with the others");
