@@ -5,6 +5,32 @@ mod frames;
 use coralpipe::results::vtu::{Base, File};
 use vtkio::model::{Attribute, CellType, IOBuffer, VertexNumbers};
 
+/// Where the arrays of a file begin.
+fn offsets_of(file: &[u8]) -> Vec<usize> {
+    let text = String::from_utf8_lossy(file);
+    text.split(" offset=\"").skip(1).map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect()
+}
+
+/// meshio gives each array that it has read the offset which it has in base64, a multiple of 4, and then looks for the
+/// next one by its offset in the file: the first array with that number. 40 arrays of lengths 1 to 40 and of all kinds of
+/// content begin anywhere but there, and are read back.
+#[test]
+fn no_array_begins_where_meshio_would_take_another_for_it() {
+    let base = Base::new(&[[0.; 3]; 40], &[0, 1], &[2], &[CellType::Line]);
+    let mut file = File::new(&base);
+    let values = |n: usize| (0..40).map(|i| if i < n { (i * n) as f64 / 7. } else { 0. }).collect::<Vec<_>>();
+    (0..40).for_each(|n| file.point(Attribute::scalars(format!("a{n}"), 1), "", &values(n)));
+    let bytes = file.bytes().unwrap();
+    let offsets = offsets_of(&bytes);
+    assert_eq!((offsets.len(), offsets[0]), (44, 0));
+    assert!(offsets[1..].iter().all(|offset| offset % 4 != 0), "{offsets:?}");
+    let piece = frames::piece(&bytes).unwrap();
+    for (n, attribute) in piece.data.point.iter().enumerate() {
+        let Attribute::DataArray(array) = attribute else { panic!("no array") };
+        assert_eq!(array.data, IOBuffer::F64(values(n)));
+    }
+}
+
 /// As many points as fill blocks of 32 KiB exactly; numbers without zeros, which stay as they are, some with, a
 /// constant.
 #[test]

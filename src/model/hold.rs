@@ -1,10 +1,11 @@
-//! Whether supports hold every part of the mesh: without inertia what is loose has no equilibrium.
+//! Whether supports hold every part of the mesh: without inertia what is loose has no equilibrium, and with inertia it
+//! flies.
 
 use super::case::Analysis;
 use super::resolve::Model;
 use crate::number::place;
 use crate::{Error, Result};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A part's rotation counts as held if the supports' rows have this share of their size left when its shifts are gone.
 const ROTATION: f64 = 1e-9;
@@ -18,31 +19,87 @@ pub fn refuse_loose(model: &Model) -> Result<()> {
         return Ok(());
     }
     let model = &model.held();
-    let part = parts(model);
-    for number in part.iter().copied().collect::<BTreeSet<_>>() {
-        let nodes: Vec<usize> = (0..part.len()).filter(|&n| part[n] == number).collect();
-        let surfaces: BTreeSet<&str> = model
-            .faces()
-            .filter(|(cell, _)| part[model.mesh.cells[*cell].nodes[0]] == number)
-            .filter_map(|(cell, _)| model.material_of[cell].map(|m| model.materials[m].0.as_str()))
-            .collect();
-        // nodes of no face are no part of the solid
-        if let (false, Some(how)) = (surfaces.is_empty(), free_motion(model, &nodes)) {
-            let names: Vec<String> = surfaces.iter().map(|name| format!("\"{name}\"")).collect();
-            let mean = |i: usize| nodes.iter().map(|&n| model.mesh.points[n][i]).sum::<f64>() / nodes.len() as f64;
-            return Err(Error::input(format!(
-                "nothing holds {} round {} {how}: a steady load needs supports (or an interface to what is \
-                 held) in x, in y and against turning",
-                names.join(", "),
-                place([0, 1].map(mean))
-            )));
+    match parts(model).iter().find_map(|part| part.loose(model)) {
+        None => Ok(()),
+        Some(loose) => Err(Error::input(format!(
+            "{loose}: a steady load needs supports (or an interface to what is held) in x, in y and against turning"
+        ))),
+    }
+}
+
+/// In a dynamic calculation: a sentence for each part that nothing holds beside others that are held. A part that is
+/// given a velocity is meant to fly.
+pub fn afloat(model: &Model) -> Vec<String> {
+    if model.analysis == Analysis::Static || model.gravity != 0. {
+        return vec![];
+    }
+    let held = &model.held();
+    let parts = parts(held);
+    if parts.iter().all(|part| part.loose(held).is_some()) {
+        return vec![];
+    }
+    let rests = |part: &&Part| part.nodes.iter().all(|&n| model.initial.velocity[n] == [0.; 2]);
+    let sentence = |how: String| {
+        format!(
+            "{how}: it moves as a rigid body, with natural frequencies of 0 Hz, and goes through what it meets; supports or an \
+             interface to what is held would hold it"
+        )
+    };
+    parts.iter().filter(rests).filter_map(|part| part.loose(held)).map(sentence).collect()
+}
+
+/// Faces that share nodes, or that joints press together.
+struct Part {
+    /// ascending
+    nodes: Vec<usize>,
+    /// names of the materials
+    surfaces: BTreeSet<String>,
+}
+
+impl Part {
+    /// `nothing holds "a" round (0, 0) m in x`, if so, with the cause where it lies on another part.
+    fn loose(&self, model: &Model) -> Option<String> {
+        let how = free_motion(model, &self.nodes)?;
+        let names: Vec<String> = self.surfaces.iter().map(|name| format!("\"{name}\"")).collect();
+        let mean =
+            |i: usize| self.nodes.iter().map(|&n| model.mesh.points[n][i]).sum::<f64>() / self.nodes.len() as f64;
+        let cause = self.slit(model).map_or(String::new(), |at| {
+            format!(", since it shares no nodes with the part that it touches along a slit at {}", place(at))
+        });
+        Some(format!("nothing holds {} round {} {how}{cause}", names.join(", "), place([0, 1].map(mean))))
+    }
+
+    /// A place where it touches another part along a slit of the case.
+    fn slit(&self, model: &Model) -> Option<[f64; 2]> {
+        let is_own = |face: usize| self.nodes.binary_search(&model.mesh.cells[face].nodes[0]).is_ok();
+        let slit = model.slits.iter().find(|slit| is_own(slit.faces[0]) != is_own(slit.faces[1]))?;
+        Some([0, 1].map(|i| (slit.ends[0][i] + slit.ends[1][i]) / 2.))
+    }
+}
+
+/// In the order of their first nodes.
+fn parts(model: &Model) -> Vec<Part> {
+    let numbers = part_numbers(model);
+    let mut parts: BTreeMap<usize, Part> = BTreeMap::new();
+    for (node, &number) in numbers.iter().enumerate() {
+        let part = parts.entry(number).or_insert(Part { nodes: vec![], surfaces: BTreeSet::new() });
+        part.nodes.push(node);
+    }
+    for (cell, _) in model.faces() {
+        let number = numbers[model.mesh.cells[cell].nodes[0]];
+        let name = model.material_of[cell].map(|m| model.materials[m].0.as_str());
+        if let (Some(part), Some(name)) = (parts.get_mut(&number), name)
+            && !part.surfaces.contains(name)
+        {
+            part.surfaces.insert(name.into());
         }
     }
-    Ok(())
+    // nodes of no face are no part of the solid
+    parts.into_values().filter(|part| !part.surfaces.is_empty()).collect()
 }
 
 /// For each node the number of its part.
-fn parts(model: &Model) -> Vec<usize> {
+fn part_numbers(model: &Model) -> Vec<usize> {
     let mut leader: Vec<usize> = (0..model.mesh.points.len()).collect();
     fn lead(leader: &mut [usize], mut node: usize) -> usize {
         while leader[node] != node {

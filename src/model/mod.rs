@@ -2,6 +2,7 @@
 
 pub mod absorbing;
 pub mod arrival;
+pub mod borders;
 pub mod boundary;
 pub mod case;
 mod charge;
@@ -12,6 +13,7 @@ pub mod hold;
 pub mod idle;
 pub mod initial;
 mod loads;
+pub mod locking;
 pub mod lookup;
 pub mod mesh;
 pub mod moving_front;

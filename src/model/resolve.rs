@@ -1,6 +1,7 @@
 //! The case's names become indices into the mesh. The user's words end here: after it only physics can fail.
 
 use super::absorbing::{self, Absorber, absorbers};
+use super::borders::Slit;
 use super::boundary::Border;
 use super::case::{Analysis, Case, Damping, Integration, Integrator, Mass, Newton, Quad4, Start};
 use super::free_field::{self, FreeField, free_fields};
@@ -38,6 +39,8 @@ pub struct Model {
     pub seams: Vec<Seam>,
     /// names of the interfaces' bodies, each once; also where the case is bonded
     pub bodies: Vec<String>,
+    /// borders inside the solid that are open on purpose
+    pub slits: Arc<[Slit]>,
     pub pairs: Arc<[Pair]>,
     pub joints: Arc<[Joint]>,
     /// for each joint
@@ -125,7 +128,8 @@ impl Model {
         let interfaces = seams(case, mesh, &mut warnings);
         let bodies: BTreeSet<String> = interfaces.iter().map(|seam| seam.body.clone()).collect();
         let seams = if bonded { vec![] } else { interfaces };
-        let Opened { mesh, pairs, joints, sides } = openings.of(mesh, &seams)?;
+        let (Opened { mesh, pairs, joints, sides }, allowed) = openings.of(mesh, &seams, &case.slits)?;
+        warnings.extend(allowed.warnings);
         let law = |joint: &Joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]);
         let laws = joints.iter().map(law).collect::<Result<_>>()?;
         warnings.extend(unused_groups(case, &mesh));
@@ -157,6 +161,7 @@ impl Model {
             material_of,
             seams,
             bodies: bodies.into_iter().collect(),
+            slits: allowed.slits.into(),
             laws,
             mesh,
             warnings,
@@ -340,7 +345,7 @@ fn is_used(group: &Group, case: &Case, mesh: &Mesh) -> bool {
     let of_dimension = |dimension: usize, name: &str| group.dimension == dimension && group.is_called(name);
     let of_any = |name: &str| group.is_called(name) && mesh.group(name).is_ok_and(|meant| meant == group);
     case.materials.keys().any(|name| of_dimension(2, name))
-        || case.interfaces.keys().chain(case.boundaries.keys()).any(|name| of_dimension(1, name))
+        || case.interfaces.keys().chain(case.boundaries.keys()).chain(&case.slits).any(|name| of_dimension(1, name))
         || case.loads.iter().any(|(name, load)| of_dimension(load.dimension(), name))
         || case.supports.keys().chain(case.initial.keys()).any(|name| of_any(name))
 }

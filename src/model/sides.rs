@@ -25,12 +25,99 @@ pub fn solid_sides(mesh: &Mesh) -> Sides {
     sides
 }
 
+/// A side of a face, running anticlockwise: two ends, then the mid-side node if there is one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Side {
+    pub face: usize,
+    pub nodes: Vec<usize>,
+}
+
+/// The sides at which the solid may end.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EndSides {
+    /// sides of exactly one face
+    pub open: Vec<Side>,
+    /// two sides with the same two ends whose faces lie on the same side of them, so that they overlap
+    pub covered: Vec<[Side; 2]>,
+}
+
 /// The nodes of all sides that one face alone has: the mesh's borders, outer and inner.
 pub fn open_sides(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let mut open: Vec<Vec<usize>> =
-        solid_sides(mesh).into_values().filter(|faces| faces.len() == 1).map(|mut faces| faces.remove(0).1).collect();
-    open.sort_unstable(); // the map has no order
+    let mut open: Vec<Vec<usize>> = end_sides(mesh).open.into_iter().map(|side| side.nodes).collect();
+    open.sort_unstable();
     open
+}
+
+/// Without the memory of [`solid_sides`]: sides are gathered by their smaller end, then sorted by their larger one.
+pub fn end_sides(mesh: &Mesh) -> EndSides {
+    let mut ends = EndSides::default();
+    let Bundles { starts, mut sides } = Bundles::of(mesh);
+    for bundle in starts.windows(2) {
+        let bundle = &mut sides[bundle[0]..bundle[1]];
+        bundle.sort_unstable();
+        for same in bundle.chunk_by(|a, b| a.larger == b.larger) {
+            if let [only] = same {
+                ends.open.push(only.side(mesh));
+            }
+            let overlapping = same.windows(2).filter(|pair| pair[0].rises == pair[1].rises);
+            ends.covered.extend(overlapping.map(|pair| [pair[0].side(mesh), pair[1].side(mesh)]));
+        }
+    }
+    ends
+}
+
+/// A side of a face, small enough for millions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+struct Local {
+    /// end
+    larger: u32,
+    /// whether it runs to its larger end
+    rises: bool,
+    /// in the face
+    number: u8,
+    face: u32,
+}
+
+impl Local {
+    fn side(self, mesh: &Mesh) -> Side {
+        let face = self.face as usize;
+        Side { face, nodes: sides_of(&mesh.cells[face]).swap_remove(self.number as usize) }
+    }
+}
+
+/// The sides of all faces, by their smaller end.
+struct Bundles {
+    /// for each node, where its sides begin
+    starts: Vec<usize>,
+    sides: Vec<Local>,
+}
+
+impl Bundles {
+    fn of(mesh: &Mesh) -> Bundles {
+        let mut starts = vec![0; mesh.points.len() + 1];
+        each_side(mesh, |smaller, _| starts[smaller + 1] += 1);
+        (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
+        let (mut next, mut sides) = (starts.clone(), vec![Local::default(); starts[starts.len() - 1]]);
+        each_side(mesh, |smaller, side| {
+            sides[next[smaller]] = side;
+            next[smaller] += 1;
+        });
+        Bundles { starts, sides }
+    }
+}
+
+/// Every side of every face, with its smaller end.
+fn each_side(mesh: &Mesh, mut see: impl FnMut(usize, Local)) {
+    for (face, cell) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
+        let corners = cell.corners();
+        let mut from = corners[corners.len() - 1];
+        for (next, &to) in corners.iter().enumerate() {
+            let number = (next + corners.len() - 1) % corners.len();
+            let side = Local { larger: from.max(to) as u32, rises: from < to, number: number as u8, face: face as u32 };
+            see(from.min(to), side);
+            from = to;
+        }
+    }
 }
 
 /// The nodes of a line, or of each side of a face: two ends, then the mid-side node if there is one.

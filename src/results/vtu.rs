@@ -8,6 +8,7 @@
 use super::xml_text::escaped;
 use bytemuck::Pod;
 use flate2::{Compression, write::ZlibEncoder};
+use std::borrow::Cow;
 use std::io::Write as _;
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataSet, IOBuffer, Piece, UnstructuredGridPiece, Version,
@@ -183,10 +184,10 @@ fn with_appended(xml: &str, arrays: &[Appended]) -> Vec<u8> {
     const INLINE: &str = " format=\"binary\"";
     const END: &str = "</DataArray>";
     let length = arrays.iter().map(|array| array.bytes.len() + array.unit.len()).sum::<usize>();
-    let mut bytes = Vec::with_capacity(4 * xml.len() + length);
+    let mut bytes = Vec::with_capacity(4 * xml.len() + 2 * length);
     let (head, mut left) = xml.split_at(xml.find("<Piece").expect("a grid has a piece"));
     bytes.extend(head.as_bytes());
-    let mut offset = 0;
+    let (mut offset, mut appended) = (0, Vec::with_capacity(length));
     for Appended { unit, bytes: array } in arrays {
         let (with_old, after) = left.split_once(END).expect("vtkio writes every array it is given");
         let (before, attributes) = with_old.rsplit_once(INLINE).expect("vtkio writes arrays inline");
@@ -195,14 +196,32 @@ fn with_appended(xml: &str, arrays: &[Appended]) -> Vec<u8> {
         let unit = information(unit);
         let tag = format!("{before} format=\"appended\" offset=\"{offset}\"{attributes}>{unit}{END}");
         bytes.extend(tag.as_bytes());
-        (left, offset) = (after, offset + array.len());
+        let next_at_multiple = (offset + array.len()).is_multiple_of(4);
+        let array = if next_at_multiple { Cow::Owned(lengthened(array)) } else { Cow::Borrowed(&array[..]) };
+        appended.extend_from_slice(&array);
+        (left, offset) = (after, appended.len());
     }
     let (rest, _) = left.rsplit_once("</VTKFile>").expect("vtkio writes a whole file");
     bytes.extend(rest.as_bytes());
     bytes.extend(b"<AppendedData encoding=\"raw\">\n_");
-    arrays.iter().for_each(|array| bytes.extend(array.bytes));
+    bytes.extend(appended);
     bytes.extend(b"\n</AppendedData></VTKFile>");
     bytes
+}
+
+/// A compressed array with an empty stored block of five bytes at the beginning of its stream (RFC 1951, 3.2.4).
+///
+/// meshio looks an array up by its offset and then writes another offset over it, that of the array in base64, a multiple
+/// of 4: where a later array begins at that very number, it takes the earlier one for it. So none but the first begins
+/// at a multiple of 4.
+fn lengthened(array: &[u8]) -> Vec<u8> {
+    const EMPTY: [u8; 5] = [0, 0, 0, 0xff, 0xff];
+    let (header, stream) = array.split_at(4 * size_of::<u64>());
+    let (header, size) = header.split_at(3 * size_of::<u64>());
+    let size = u64::from_ne_bytes(size.try_into().expect("a header ends with the size of the stream"));
+    // zlib's own header has two bytes
+    let (start, blocks) = stream.split_at(2);
+    [header, &(size + EMPTY.len() as u64).to_ne_bytes(), start, &EMPTY, blocks].concat()
 }
 
 /// How VTK keeps the unit of an array.

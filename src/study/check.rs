@@ -8,6 +8,7 @@ use super::overflow::refuse_overflow;
 use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use crate::escape;
+use crate::model::borders::Borders;
 use crate::model::case::{Analysis, Boundary, Case};
 use crate::model::hold::refuse_loose;
 use crate::model::mesh::{Group, Mesh};
@@ -34,6 +35,7 @@ pub fn command(request: &Request) -> Result<String> {
         quality::refuse_folded(&mesh)?;
         let mut warnings = mesh_report::warnings(&mesh);
         warnings.extend(mesh_report::without_group(&mesh));
+        warnings.extend(Borders::of(&mesh).warnings(&mesh));
         let warnings: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
         return Ok(report(&[counts(&mesh), groups(&mesh, |_| String::new()), shapes(&mesh), warnings]));
     }
@@ -73,6 +75,9 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
     }
     if let Some(seam) = model.seams.iter().position(|s| is(1, &s.curve)) {
         roles.push(interface_role(seam, model));
+    }
+    if case.slits.iter().any(|name| is(1, name)) {
+        roles.push("slit: its two sides share no nodes".into());
     }
     for (_, axes) in case.supports.iter().filter(|(name, _)| meant(name)) {
         let names: Vec<&str> = axes.iter().map(|a| ["x", "y"][a.index()]).collect();

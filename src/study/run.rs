@@ -10,9 +10,10 @@ use super::screen::{Screen, tell};
 use super::unsettled;
 use crate::escape::one_line;
 use crate::model::case::{Analysis, Case};
-use crate::model::hold::refuse_loose;
+use crate::model::hold::{afloat, refuse_loose};
 use crate::model::idle::idle;
 use crate::model::initial::Initial;
+use crate::model::locking;
 use crate::model::openings::Openings;
 use crate::model::resolve::Model;
 use crate::number::seconds;
@@ -98,6 +99,8 @@ pub fn load(request: &Request) -> Result<Loaded> {
 pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openings) -> Result<Model> {
     let mut model = Model::opened(case, &meshed.mesh, bonded, openings)?;
     model.warnings.extend(idle(case, &model));
+    model.warnings.extend(afloat(&model));
+    model.warnings.extend(locking::warnings(&model));
     model.warnings.extend(meshed.warnings.iter().cloned());
     Ok(model)
 }

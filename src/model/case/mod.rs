@@ -60,7 +60,11 @@ pub struct Case {
     /// Curves that open into joints between a body and the ground. Default: none.
     #[serde(default)]
     pub interfaces: BTreeMap<String, Interface>,
-    /// Directions in which a group is held; "curve:NAME" where points and curves have the same name. Default: none.
+    /// Curves along which two parts may lie on each other without sharing nodes, such as cracks made by Gmsh's
+    /// Plugin(Crack): no force passes there, and the two sides can move into each other. Default: none.
+    #[serde(default)]
+    pub slits: Vec<String>,
+    /// Directions in which a curve or point group is held; "curve:NAME" where points and curves have the same name. Default: none.
     #[serde(default)]
     pub supports: BTreeMap<String, Vec<Axis>>,
     /// Boundaries by curve group that let waves out: "viscous" (base), "free_field" (upright sides, where the layers go on
