@@ -28,6 +28,7 @@ test: setup $(program)
 	cargo clippy --release --all-targets --locked -- --deny warnings
 	cargo test --release --locked --no-fail-fast
 	$(python) scripts/check_licences.py
+	$(python) scripts/check_schema.py --binary $(program)
 	$(program) mesh
 	$(python) scripts/check_mesh.py meshes/twin_pipes.msh --case geo/twin_pipes.json
 	$(program) run --quiet --out output/test

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes this machine ready: a C compiler (METIS is compiled), Python, and .venv with gmsh, meshio and vtk in
+# Makes this machine ready: a C compiler (METIS is compiled), Python, and .venv with gmsh, meshio, vtk and jsonschema in
 # fixed versions. Run it as often as you like, from anywhere: what is there already is left alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -30,6 +30,9 @@ pub enum Command {
         /// Compute nothing where the folder has the results of this very case and mesh by this program
         #[arg(long)]
         unless_done: bool,
+        /// Let a run begin whatever its size: steps, frames, time, bytes against the free disk
+        #[arg(long)]
+        large: bool,
         /// Print the results only, not what is going on
         #[arg(long)]
         quiet: bool,
@@ -65,6 +68,9 @@ pub enum Command {
         /// Results folder [default: output/NAME]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Let the runs begin whatever their size: steps, frames, time, bytes against the free disk
+        #[arg(long)]
+        large: bool,
         /// Print the table only, not what is going on
         #[arg(long)]
         quiet: bool,
@@ -92,12 +98,19 @@ pub enum Command {
         /// Results folder, DIR/converge [default: output/NAME]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Let the runs begin whatever their size: steps, frames, time, bytes against the free disk
+        #[arg(long)]
+        large: bool,
         /// Print the results only, not what is going on
         #[arg(long)]
         quiet: bool,
     },
     /// Print the JSON Schema of the case file, for editors
-    Schema,
+    Schema {
+        /// That of the plan of a sweep
+        #[arg(long)]
+        sweep: bool,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -202,6 +215,9 @@ pub struct DomainArguments {
     /// Results folder, DIR/domain [default: output/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Let the runs begin whatever their size: steps, frames, time, bytes against the free disk
+    #[arg(long)]
+    large: bool,
     /// Print the results only, not what is going on
     #[arg(long)]
     quiet: bool,
@@ -232,6 +248,7 @@ impl CaseArguments {
             out: None,
             bonded: false,
             quiet: false,
+            large: false,
         })
     }
 }
@@ -255,7 +272,7 @@ fn constants(texts: &[String]) -> Result<BTreeMap<String, f64>> {
 
 /// Does what was asked and prints the result: an error where stdout does not take a result that stands nowhere else.
 pub fn execute(command: Command) -> Result<()> {
-    let is_on_disk = !matches!(command, Command::Check { .. } | Command::Blast(_) | Command::Schema);
+    let is_on_disk = !matches!(command, Command::Check { .. } | Command::Blast(_) | Command::Schema { .. });
     let text = result_of(command)?;
     if is_on_disk {
         show_copy(&text);
@@ -266,23 +283,25 @@ pub fn execute(command: Command) -> Result<()> {
 
 fn result_of(command: Command) -> Result<String> {
     match command {
-        Command::Run { case, out, bonded, unless_done, quiet } => {
-            let request = Request { out, bonded, quiet, ..case.request()? };
+        Command::Run { case, out, bonded, unless_done, large, quiet } => {
+            let request = Request { out, bonded, large, quiet, ..case.request()? };
             if unless_done { study::run::unless_done(&request) } else { study::run::command(&request) }
         }
         Command::Mesh { case } => study::mesh::command(&case.request()?),
         Command::Check { case } => study::check::command(&case.request()?),
         Command::Modes { case, count, out } => study::modes::command(&Request { out, ..case.request()? }, count),
         Command::Blast(arguments) => study::blast::command(&arguments.request()),
-        Command::Sweep { plan, out, quiet } => study::sweep::command(&study::sweep::SweepRequest { plan, out, quiet }),
+        Command::Sweep { plan, out, large, quiet } => {
+            study::sweep::command(&study::sweep::SweepRequest { plan, out, large, quiet })
+        }
         Command::Domain { case, mut options } => {
-            let (out, quiet) = (options.out.take(), options.quiet);
-            study::domain::command(&Request { out, quiet, ..case.request()? }, &options.options())
+            let (out, large, quiet) = (options.out.take(), options.large, options.quiet);
+            study::domain::command(&Request { out, large, quiet, ..case.request()? }, &options.options())
         }
-        Command::Converge { case, compare, refine, ratio, out, quiet } => {
+        Command::Converge { case, compare, refine, ratio, out, large, quiet } => {
             let options = study::converge::Options { compare, refine, ratio };
-            study::converge::command(&Request { out, quiet, ..case.request()? }, &options)
+            study::converge::command(&Request { out, large, quiet, ..case.request()? }, &options)
         }
-        Command::Schema => Ok(study::schema()),
+        Command::Schema { sweep } => Ok(study::schema(sweep)),
     }
 }

@@ -120,7 +120,7 @@ fn files_of_somebody_else_are_still_refused_and_kept() {
 /// Steps without end.
 fn endless(bench: &Bench, stderr: &Path) -> Child {
     let sets = ["--set", "time.end=1000 s", "--set", "output.every=1 ms"];
-    let mut program = bench.program(&[&["run", "block.json", "--quiet"][..], &sets].concat());
+    let mut program = bench.program(&[&["run", "block.json", "--quiet", "--large"][..], &sets].concat());
     let child = program.stdout(Stdio::null()).stderr(File::create(stderr).unwrap()).spawn().unwrap();
     wait_for(&bench.path("output/block/frames/block_00003.vtu"));
     child

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use coralpipe::Error;
-use coralpipe::model::case::{self, Axis, Case, Geometry, Integration, Load, Mass, Pressure, Probe, Rayleigh, Start};
+use coralpipe::model::case::{
+    self, Axis, Case, Geometry, Integration, Load, Mass, MeshSource, MeshUnit, Pressure, Probe, Rayleigh, Start,
+};
 use coralpipe::physics::pulse::Pulse;
 use serde_json::{Value, json};
 
@@ -75,7 +77,9 @@ fn the_papers_case_reads_as_the_papers_numbers_in_si() {
     assert!(close(case.time.step.0, 1e-4) && close(case.time.end.0, 0.1) && close(case.frame_interval(), 1e-3));
     assert_eq!(case.probes.iter().map(Probe::name).collect::<Vec<_>>(), ["A", "C", "H", "K", "L", "I"]);
     assert_eq!(case.name(), "twin_pipes");
-    let Some(Geometry::Script { script, parameters }) = &case.geometry else { panic!("{:?}", case.geometry) };
+    let Some(Geometry { source: Some(MeshSource::Script { script, parameters }), .. }) = &case.geometry else {
+        panic!("{:?}", case.geometry)
+    };
     assert_eq!(case.resolve(script), root().join("geo/twin_pipes.geo"));
     assert_eq!(parameters["spacing"], 2.4);
 }
@@ -115,7 +119,11 @@ fn the_further_keys_of_the_design_are_read() {
             c.interfaces["interface_left"].normal_stiffness.unwrap().0 == 2e9
         }),
         ("interfaces.interface_left.gap=2 mm", |c| c.interfaces["interface_left"].gap.0 == 2e-3),
-        ("geometry={\"mesh\":\"m.msh\"}", |c| c.geometry == Some(Geometry::Mesh("m.msh".into()))),
+        ("geometry={\"mesh\":\"m.msh\"}", |c| {
+            c.geometry == Some(Geometry { source: Some(MeshSource::Mesh("m.msh".into())), unit: MeshUnit::Metre })
+        }),
+        ("geometry.unit=ft", |c| c.mesh_unit() == MeshUnit::Foot && c.mesh_unit().length() == 0.3048),
+        ("geometry={\"unit\":\"mm\"}", |c| c.geometry == Some(Geometry { source: None, unit: MeshUnit::Millimetre })),
         ("probes.0={\"name\":\"P\",\"at\":[1,\"50 cm\"],\"body\":\"layer_1\"}", |c| {
             c.probes[0] == Probe::Place { name: "P".into(), at: [1.0, 0.5], body: Some("layer_1".into()) }
         }),
@@ -263,6 +271,9 @@ fn every_impossible_value_is_a_sentence_with_file_path_value_and_range() {
         ("probes.1={\"name\":\"P\"}", "probes[1]", "the key \"at\" is missing"),
         ("materials=[]", "materials", "an object is expected"),
         ("time=5", "time", "an object is expected"),
+        ("time=[1e-4, 1e-2]", "time", "a list stands where an object is expected"),
+        ("materials.layer_1=[1e8, 0.3, 2000]", "materials.layer_1", "a list stands where an object is expected"),
+        ("probes.1=[\"P\", [1, 2]]", "probes[1]", "a list stands where"),
     ] {
         let sentence = sentence(set);
         let head = format!("geo/twin_pipes.json with --set {set}: {place}: ");
@@ -356,7 +367,9 @@ fn unknown_to(schema: &Value, root: &Value, value: &Value, place: &str) -> Vec<S
     if let Some(target) = schema.get("$ref").and_then(Value::as_str) {
         return unknown_to(root.pointer(target.trim_start_matches('#')).unwrap(), root, value, place);
     }
-    if let Some(choices) = schema.get("anyOf").or(schema.get("oneOf")).and_then(Value::as_array) {
+    let choices = schema.get("anyOf").or(schema.get("oneOf")).and_then(Value::as_array);
+    // beside properties a choice says which of them go together
+    if let Some(choices) = choices.filter(|_| schema.get("properties").is_none()) {
         let tries = choices.iter().map(|choice| unknown_to(choice, root, value, place));
         return tries.min_by_key(Vec::len).unwrap();
     }
@@ -406,5 +419,74 @@ fn every_key_of_the_schema_is_described_and_quantities_list_their_units() {
     }
     for (name, unit) in [("Pressure", "N/cm^2"), ("Density", "kg/cm^3"), ("Length", "cm"), ("Time", "ms")] {
         assert!(definitions[name]["description"].as_str().unwrap().contains(unit), "{name}");
+    }
+}
+
+/// The law of a load, wherever loads stand; one that is near is offered.
+#[test]
+fn a_wrong_law_is_reported_at_its_place_with_the_nearest_name() {
+    let traction = r#"{"traction":{"law":"half-sine","peak":1,"duration":1,"direction":[1,0]}}"#;
+    for (set, place, words) in [
+        (
+            "loads.surface.pressure.law=linaer",
+            "loads.surface.pressure.law",
+            "\"linaer\" is no law (did you mean \"linear\"?)",
+        ),
+        (
+            "loads.surface.pressure.law=Step",
+            "loads.surface.pressure.law",
+            "\"Step\" is no law (did you mean \"step\"?)",
+        ),
+        (
+            "loads.surface.pressure.law=triangle",
+            "loads.surface.pressure.law",
+            "\"triangle\" is no law; there are: linear, step",
+        ),
+        ("loads.surface.pressure.law=5", "loads.surface.pressure.law", "stands where"),
+        (&format!("loads={{\"A\":{traction}}}"), "loads.A.traction.law", "did you mean \"half_sine\"?"),
+        (&format!("loads=[{{\"A\":{traction}}}]"), "loads[0].A.traction.law", "there are: linear, step, table"),
+    ] {
+        let sentence = sentence(set);
+        assert!(sentence.contains(&format!(": {place}: ")) && sentence.contains(words), "{set}\n  {sentence}");
+    }
+}
+
+/// Comments may stand twice in an object; they are no name of a group, and nothing that a result depends on.
+#[test]
+fn comments_and_the_place_of_the_schema_change_nothing_that_is_calculated() {
+    let plain = Case::read(&default_case(), &[]).unwrap();
+    let text = std::fs::read_to_string(default_case()).unwrap();
+    let commented =
+        text.replace('{', r#"{ "_comment": { "law": "table", "file": "none" }, "_comment": 1, "_comment_2": [{}], "#);
+    let commented = commented.replacen('{', "{ \"$schema\": \"case.schema.json\", ", 1);
+    let case = read_text("comments", &commented).unwrap();
+    assert_eq!(case.json(), plain.json());
+    let refused = read_text("comment", &text.replacen('{', "{ \"comment\": 1, ", 1)).unwrap_err().to_string();
+    assert!(refused.contains("there is no key \"comment\""), "{refused}");
+    let place = read_text("schema", &text.replacen('{', "{ \"$schema\": 5, ", 1)).unwrap_err().to_string();
+    assert!(place.contains("$schema: "), "{place}");
+}
+
+/// Each law has an object of its own, told apart by a constant, and no other law's keys; beyond that
+/// `scripts/check_schema.py` compares what the schema and the program refuse.
+#[test]
+fn the_schema_has_an_object_for_each_law_with_its_own_keys_alone() {
+    let schema = case::schema();
+    let laws = |name: &str| schema["$defs"][name]["oneOf"].as_array().unwrap().clone();
+    let keys_of = |law: &Value| law["properties"].as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let pressures = laws("PressureLaw");
+    let names: Vec<&str> = pressures.iter().map(|law| law["properties"]["law"]["const"].as_str().unwrap()).collect();
+    assert_eq!(names, ["linear", "step", "table", "ramp", "half_sine", "friedlander", "charge"]);
+    for law in &pressures {
+        assert_eq!(law["additionalProperties"], false);
+        assert!(keys_of(law).ends_with(&["front", "scale", "rise", "start"].map(String::from)), "{law}");
+    }
+    assert_eq!(pressures[0]["required"], json!(["law", "peak", "duration"]));
+    assert_eq!(keys_of(&pressures[1]), ["law", "peak", "front", "scale", "rise", "start"]);
+    assert_eq!(pressures[6]["required"], json!(["law", "explosion"]));
+    for name in ["DirectedLawPressure", "DirectedLawForceDensity", "DirectedLawLineForce"] {
+        assert_eq!(laws(name).len(), 6, "a charge is for pressures only");
+        assert_eq!(laws(name)[1]["required"], json!(["law", "peak", "direction"]));
+        assert!(laws(name).iter().all(|law| law["properties"].get("front").is_none()));
     }
 }

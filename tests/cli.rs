@@ -539,24 +539,54 @@ fn results_of_other_options_are_named_before_they_are_replaced() {
     }
 }
 
-/// 20,001 frames of 14 kB, as a finished run of this has them, beside 11; and 1e8 steps between them.
+/// 20,001 frames of 14 kB, as a finished run of this has them; 1e8 steps; and 100 s where 100 ms were meant.
 #[test]
-fn a_run_that_will_write_very_much_is_warned_of_before_it_begins() {
-    let bench = Bench::new("bulk");
-    let often = "--set time.step=0.5us --set output.every=0.5us";
-    let told = bench.run_line(&format!("check block.json {often}")).stdout;
-    for words in ["warning: the run writes 20001 frames, and about 0.31 GB in all", "a longer output.every"] {
+fn a_run_above_a_size_is_refused_with_its_numbers_and_let_run_by_large() {
+    let bench = Bench::new("large");
+    let often = "block.json --set time.step=0.5us --set output.every=0.5us";
+    let numbers = [
+        "20000 steps of about 72 unknowns and 20001 frames",
+        "(time.end = 0.01 s, time.step = 5e-7 s, output.every = 5e-7 s)",
+        "write about 300 MB into output/block, where ",
+        "more than 10000 frames",
+        "--large",
+    ];
+    let checked = bench.run_line(&format!("check {often}"));
+    assert_eq!(checked.code, Some(0), "{}", checked.stderr);
+    let refused = bench.run_line(&format!("run {often}"));
+    assert_eq!(refused.code, Some(1), "{}", refused.stderr);
+    assert!(!bench.path("output").exists(), "a refused run writes nothing");
+    for words in numbers {
+        assert!(checked.stdout.contains(words), "{words}: {}", checked.stdout);
+        assert!(refused.stderr.contains(words), "{words}: {}", refused.stderr);
+    }
+    let told = bench.run_line("run block.json --set time.step=1e-10").stderr;
+    for words in ["100000000 steps", "and 11 frames", "about 48 GB", "more than 100000 steps, more than 20 GB"] {
         assert!(told.contains(words), "{words}: {told}");
     }
-    let told = bench.run_line("check block.json --set time.step=1e-10").stdout;
-    for words in ["the run writes 11 frames, and about 48 GB in all", "a longer time.step"] {
-        assert!(told.contains(words), "{words}: {told}");
+    let milliseconds = bench.run_line("run block.json --set time.end=100");
+    assert_eq!(milliseconds.code, Some(1), "100 ms was meant: {}", milliseconds.stderr);
+    for words in ["200000 steps", "time.end = 100 s", "without a unit is in seconds"] {
+        assert!(milliseconds.stderr.contains(words), "{words}: {}", milliseconds.stderr);
     }
-    let short = "--set time.end=0.2ms --set time.step=0.01us --set output.every=0.01us";
-    let run = bench.run_line(&format!("run block.json {short} --quiet --out {}", "block.json"));
+    let short = "--set time.end=0.2ms --set time.step=0.01us --set output.every=0.01us --set probes=[]";
+    let run = bench.run_line(&format!("run block.json {short} --large --quiet --out {}", "block.json"));
     let warned = run.stderr.find("20001 frames").expect("told though the folder for them cannot be made");
     assert!(run.code == Some(1) && run.stderr.find("coralpipe: ").expect("it cannot begin") > warned, "{}", run.stderr);
-    assert!(!bench.run_line("check block.json").stdout.contains("the run writes"));
+    assert!(!bench.run_line("check block.json").stdout.contains("--large"));
+}
+
+/// The step of one case is a slip; all cases of a plan together are what counts for time and disk.
+#[test]
+fn a_sweep_above_a_size_is_refused_before_it_begins() {
+    let bench = Bench::new("large-sweep");
+    bench.write("plan.json", r#"{ "case": "block.json", "set": { "time.step": ["0.5 ms", "0.05 us"] } }"#);
+    let refused = bench.run_line("sweep plan.json");
+    assert_eq!(refused.code, Some(1), "{}", refused.stderr);
+    for words in ["2 runs, the longest of 200000 steps", "time.step = 5e-8 s", "output/plan", "--large"] {
+        assert!(refused.stderr.contains(words), "{words}: {}", refused.stderr);
+    }
+    assert!(!bench.path("output").exists());
 }
 
 /// Triangles of 0.006 degrees, faces in no group, groups without elements, elements that stand twice.
@@ -635,10 +665,9 @@ fn results_go_to_stdout_and_all_else_to_stderr() {
     for told in ["mesh block.msh", "warning: ", "step 20 of 20"] {
         assert!(stderr.contains(told) && !stdout.contains(told), "{told}: {stderr}");
     }
-    let quiet = bench.run_line("run block.json --quiet");
-    // warnings are for those who want quiet, too
-    let is_warning = |line: &str| line.starts_with("warning: rings.csv has no section forces of \"body\"");
-    assert!(quiet.code == Some(0) && quiet.stderr.lines().all(is_warning), "{}", quiet.stderr);
+    // undamped: its damping is warned of
+    let quiet = bench.run_line("run block.json --quiet --set damping=null");
+    assert_eq!((quiet.code, quiet.stderr.as_str()), (Some(0), ""));
     assert!(quiet.stdout.contains("results in output/block\n"));
     for line in [
         "schema",
@@ -656,7 +685,7 @@ fn results_go_to_stdout_and_all_else_to_stderr() {
 /// xi = alpha / (4 pi f) + beta pi f: 5 % at 5 and 15 Hz, so alpha = 2.356194 1/s, beta = 7.957747e-4 s, least 4.330 %
 /// at 8.660 Hz, and at 100 Hz 2.356194 / 1256.6 + 0.25 = 25.2 %.
 #[test]
-fn check_shows_the_damping_over_the_loads_spectrum_and_warns_outside_the_fitted_band() {
+fn check_shows_the_damping_over_the_loads_spectrum_and_a_run_warns_outside_the_fitted_band_too() {
     let bench = Bench::new("damping");
     let fitted = "check block.json --set damping={\"alpha\":2.356194,\"beta\":7.957747e-4} --set time.end=0.1";
     let Outcome { code, stdout, stderr } = bench.run_line(fitted);
@@ -668,6 +697,12 @@ fn check_shows_the_damping_over_the_loads_spectrum_and_warns_outside_the_fitted_
     // the program: 6.9 % and 26.5 %
     let warning = "warning: damping: the load on top has 7 % of its energy below 2.32 Hz and 26 %";
     assert!(stdout.contains(warning), "{stdout}");
+    // a run says the same before it marches, and its summary keeps it
+    let run = bench.run_line(&fitted.replace("check", "run"));
+    let (said, marched) = (run.stderr.find(warning), run.stderr.find("step 20 of 200"));
+    assert!(said.is_some() && said < marched && run.stderr.matches(warning).count() == 1, "{}", run.stderr);
+    let summary = std::fs::read_to_string(bench.path("output/block/summary.json")).unwrap();
+    assert!(summary.contains(warning.trim_start_matches("warning: ")), "{summary}");
     let undamped = bench.run_line("check block.json --set damping=null").stdout;
     assert!(!undamped.contains("xi ="), "{undamped}");
 }

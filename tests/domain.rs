@@ -223,6 +223,21 @@ fn sizes_that_cannot_be_compared_are_refused() {
     assert!(stderr.contains("the load on \"top\" never acts: it begins at 1 s"), "{stderr}");
 }
 
+/// Four runs of 300,000 steps at the least; and five, of which the longest has four times the 30,000 steps of the case.
+#[test]
+fn studies_above_a_size_are_refused_before_they_begin() {
+    let Some(gmsh) = gmsh() else { return };
+    let bench = box_bench("large");
+    for (line, words) in [
+        ("domain box.json --set time.step=1e-7", "4 runs, the longest of 300000 steps"),
+        ("converge box.json --set time.step=1e-6", "5 runs, the longest of 120000 steps"),
+    ] {
+        let Outcome { code, stderr, .. } = run(&bench, &gmsh, line);
+        assert!(code == Some(1) && stderr.contains(words) && stderr.contains("--large"), "{line}: {stderr}");
+        assert!(!bench.path("output").exists(), "{line}");
+    }
+}
+
 /// Ctrl-C in the second size: exit code 130, and the first size is done and taken as it is the next time.
 #[test]
 #[cfg(unix)]
@@ -261,6 +276,7 @@ fn default_case(sets: &[&str]) -> Returns {
         out: None,
         bonded: false,
         quiet: true,
+        large: false,
     };
     returns(&load(&request).unwrap().model).unwrap()
 }

@@ -187,7 +187,7 @@ fn an_interrupt_leaves_a_table_of_what_is_done_and_says_how_to_go_on() {
     let begun = ["50", "60"].map(|peak| bench.path(format!("output/plan/peak{peak}kPa_step0.5ms/run.sta")));
     begun.iter().for_each(|file| fs::remove_file(file).unwrap());
     let (stdout, stderr) = (bench.path("stdout"), bench.path("stderr"));
-    let mut program = bench.program(&["sweep", "plan.json"]);
+    let mut program = bench.program(&["sweep", "plan.json", "--large"]);
     let file = |path| Stdio::from(fs::File::create(path).unwrap());
     let child = program.stdout(file(&stdout)).stderr(file(&stderr)).spawn().unwrap();
     let started = Instant::now();
@@ -232,8 +232,9 @@ fn a_run_is_done_again_where_files_are_lost_or_frames_are_asked_for() {
 #[test]
 fn warnings_of_a_run_are_told_and_counted() {
     let bench = Bench::new("sweep-warnings");
-    let outcome =
-        sweep(&bench, r#"{ "case": "block.json", "set": { "loads.top.pressure.peak": ["10 GPa", "1 kPa"] } }"#);
+    let undamped =
+        r#"{ "case": "block.json", "set": { "damping": [null], "loads.top.pressure.peak": ["10 GPa", "1 kPa"] } }"#;
+    let outcome = sweep(&bench, undamped);
     assert_eq!(outcome.code, Some(0));
     let rows = rows(&bench, "output/plan/sweep.csv");
     let text = fs::read_to_string(bench.path("output/plan/peak10GPa/summary.json")).unwrap();

@@ -52,6 +52,7 @@ impl Size {
             out: None,
             bonded,
             quiet: true,
+            large: false,
         };
         let loaded = run::load(&request).unwrap_or_else(|e| panic!("{e}"));
         Prepared::new(loaded.model).unwrap_or_else(|e| panic!("{e}"))

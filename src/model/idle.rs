@@ -4,10 +4,8 @@ use super::case::{Analysis, Case, Quad4};
 use super::initial::Initial;
 use super::mesh::Shape;
 use super::resolve::{Load, Model};
+use super::sampled::unseen;
 use crate::number::{place, seconds};
-
-/// What natural modes do not need.
-pub const NOTHING_ACTS: &str = "nothing loads or moves the model: there is no load, no gravity and no initial motion";
 
 /// A sentence for each.
 pub fn idle(case: &Case, model: &Model) -> Vec<String> {
@@ -25,10 +23,18 @@ pub fn idle(case: &Case, model: &Model) -> Vec<String> {
     if case.elements.quad4 == Quad4::BBar && !model.faces().any(is_quad4) {
         idle.push("elements.quad4 = \"b_bar\" has no effect: the mesh has no 4-node quadrangles".into());
     }
+    idle
+}
+
+/// What is suspicious about loads and initial motion: a sentence for each. Natural modes do not depend on them.
+pub fn excitation(case: &Case, model: &Model) -> Vec<String> {
     let end = model.time.step * model.time.steps as f64;
-    idle.extend(model.loads.iter().filter_map(|load| never_acts(load, end)));
+    let mut idle: Vec<String> = model.loads.iter().filter_map(|load| never_acts(load, end)).collect();
+    if case.analysis == Analysis::Dynamic {
+        idle.extend(model.loads.iter().filter_map(|load| unseen(load, &model.time)));
+    }
     if nothing_acts(model) {
-        idle.push(NOTHING_ACTS.into());
+        idle.push("nothing loads or moves the model: there is no load, no gravity and no initial motion".into());
     }
     for name in case.initial.keys() {
         if case.json()["initial"][name].as_object().is_some_and(|keys| keys.is_empty()) {

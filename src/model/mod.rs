@@ -11,6 +11,7 @@ pub mod free_field;
 mod groups;
 pub mod hold;
 pub mod idle;
+pub mod implausible;
 pub mod initial;
 mod loads;
 pub mod locking;

@@ -12,7 +12,6 @@ use super::moving_front::MovingFront;
 use super::openings::Openings;
 use super::overflow::refuse_overflow;
 use super::probes::{NodeProbe, probes};
-use super::sampled::unseen;
 use super::split::{Joint, Opened, Pair, Seam};
 use crate::escape;
 use crate::number::seconds;
@@ -136,9 +135,6 @@ impl Model {
         let loads = loads(case, &mesh, &sides, &mut warnings)?;
         let material = |face: usize| materials[material_of[face].expect("every face has a material by now")].1;
         let time = time_grid(case, &mut warnings)?;
-        if case.analysis == Analysis::Dynamic {
-            warnings.extend(loads.iter().filter_map(|load| unseen(load, &time)));
-        }
         let model = Model {
             fixed: supports(case, &mesh)?,
             absorbers: absorbers(case, &mesh, &sides, material, &loads)?,

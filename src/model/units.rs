@@ -227,7 +227,8 @@ impl de::Visitor<'_> for NumberOrText {
 /// Number, or string whose pattern lists the units in every accepted spelling.
 fn schema(noun: &str, units: Units) -> Schema {
     let spelled = |unit: &str| {
-        let powers = unit.replace("^2", "(\\^|\\*\\*)?[2²]").replace("^3", "(\\^|\\*\\*)?[3³]");
+        let loose = unit.replace('/', "\\s*/\\s*").replace(' ', "\\s*");
+        let powers = loose.replace("^2", "(\\^|\\*\\*)?[2²]").replace("^3", "(\\^|\\*\\*)?[3³]");
         if powers.starts_with('u') { powers.replacen('u', "[uµμ]", 1) } else { powers }
     };
     let names: Vec<_> = units.iter().map(|(name, _)| *name).collect();

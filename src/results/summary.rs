@@ -44,6 +44,8 @@ pub struct Inputs {
     pub geo: BTreeMap<String, f64>,
     pub mesh: String,
     pub mesh_sha256: String,
+    /// of the mesh's coordinates: `mm`
+    pub mesh_unit: String,
     pub bonded: bool,
     pub coralpipe: &'static str,
 }

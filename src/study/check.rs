@@ -1,6 +1,6 @@
 //! `coralpipe check`: everything that can be wrong with a case or a mesh, found without solving.
 
-use super::bulk;
+use super::cost::{Cost, REMEDY};
 use super::damping;
 use super::loads;
 use super::mesh_report::{self, counts, groups, shapes};
@@ -9,8 +9,9 @@ use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use crate::escape;
 use crate::model::borders::Borders;
-use crate::model::case::{Analysis, Boundary, Case};
+use crate::model::case::{Analysis, Boundary, Case, MeshUnit};
 use crate::model::hold::refuse_loose;
+use crate::model::implausible::extent;
 use crate::model::mesh::{Group, Mesh};
 use crate::model::quality;
 use crate::model::resolve::Model;
@@ -36,6 +37,7 @@ pub fn command(request: &Request) -> Result<String> {
         let mut warnings = mesh_report::warnings(&mesh);
         warnings.extend(mesh_report::without_group(&mesh));
         warnings.extend(Borders::of(&mesh).warnings(&mesh));
+        warnings.extend(extent(&mesh, MeshUnit::default()));
         let warnings: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
         return Ok(report(&[counts(&mesh), groups(&mesh, |_| String::new()), shapes(&mesh), warnings]));
     }
@@ -52,7 +54,7 @@ pub fn command(request: &Request) -> Result<String> {
         waves(&model),
         time(&model) + &loads::report(&model),
         damping::told(&model, rayleigh),
-        warnings(&meshed.mesh, &model, rayleigh),
+        warnings(&meshed.mesh, &model, too_large(request, &case, &meshed.mesh)),
     ];
     Ok(report(&parts))
 }
@@ -177,12 +179,17 @@ fn time(model: &Model) -> String {
     )
 }
 
-fn warnings(mesh: &Mesh, model: &Model, rayleigh: Rayleigh) -> String {
+/// What a run would refuse without `--large`.
+fn too_large(request: &Request, case: &Case, mesh: &Mesh) -> Option<String> {
+    let excess = Cost::of_run(case, mesh, true).excess(&request.folder(case))?;
+    Some(format!("a run is refused for its size: {excess}; {REMEDY}"))
+}
+
+fn warnings(mesh: &Mesh, model: &Model, too_large: Option<String>) -> String {
     let mut warnings = model.warnings.clone();
-    warnings.extend(bulk::warning(model));
+    warnings.extend(too_large);
     warnings.extend(ring::uncut(model));
     warnings.extend(mesh_report::warnings(mesh));
-    warnings.extend(damping::warnings(model, rayleigh));
     for load in &model.loads {
         let rise = load.pulse.rise_time();
         if rise > 0. && rise < 5. * model.time.step {

@@ -1,4 +1,4 @@
-//! What Rayleigh's damping does to the loads: xi(f) beside their spectra, for `coralpipe check`.
+//! What Rayleigh's damping does to the loads: xi(f) beside their spectra, as a table for `coralpipe check` and as warnings.
 
 use crate::model::case::{Damping, Rayleigh as Asked};
 use crate::model::resolve::Model;
@@ -46,8 +46,16 @@ pub fn told(model: &Model, rayleigh: Rayleigh) -> String {
     text
 }
 
-/// A sentence for each load that lives outside the band in which the damping is about what was asked for.
+/// All that is suspicious about the damping of a model; nothing without damping, as in statics.
 pub fn warnings(model: &Model, rayleigh: Rayleigh) -> Vec<String> {
+    if rayleigh.alpha == 0. && rayleigh.beta == 0. {
+        return vec![];
+    }
+    [outside_the_band(model, rayleigh), beyond_the_boundaries(model, rayleigh.alpha).into_iter().collect()].concat()
+}
+
+/// A sentence for each load that lives outside the band in which the damping is about what was asked for.
+fn outside_the_band(model: &Model, rayleigh: Rayleigh) -> Vec<String> {
     let Rayleigh { alpha, beta } = rayleigh;
     let asked = match model.damping {
         Some(Damping { rayleigh: Asked::Ratio { ratio, .. }, .. }) => Some(ratio),
@@ -93,7 +101,7 @@ fn one_sided(model: &Model, Rayleigh { alpha, beta }: Rayleigh) -> Vec<String> {
 
 /// Where absorbing boundaries are asked for more than the first term of their damping in alpha / w can give: longer
 /// than 1 / alpha after the first load.
-pub fn beyond_the_boundaries(model: &Model, alpha: f64) -> Option<String> {
+fn beyond_the_boundaries(model: &Model, alpha: f64) -> Option<String> {
     let end = model.time.step * model.time.steps as f64;
     let first = model.loads.iter().map(|l| l.pulse.start()).fold(f64::INFINITY, f64::min);
     (!model.absorbers.is_empty() && alpha * (end - first) > 1.).then(|| {

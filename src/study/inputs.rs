@@ -18,6 +18,7 @@ pub fn made_from(case: &Case, meshed: &Meshed, request: &Request) -> Inputs {
         geo: request.geo.clone(),
         mesh: meshed.path.display().to_string(),
         mesh_sha256: meshed.sha256.clone(),
+        mesh_unit: case.mesh_unit().to_string(),
         bonded: request.bonded,
         coralpipe: env!("CARGO_PKG_VERSION"),
     }

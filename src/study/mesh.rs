@@ -4,7 +4,7 @@ use super::content::Content;
 use super::meshing::{Outcome, ensure_mesh};
 use super::run::Request;
 use crate::escape::one_line;
-use crate::model::case::{Case, Geometry};
+use crate::model::case::{Case, MeshSource};
 use crate::model::mesh::Mesh;
 use crate::model::msh;
 use crate::model::openings::Openings;
@@ -31,18 +31,21 @@ pub struct Meshed {
 /// `--mesh` first, else the case's geometry with `--geo NAME=VALUE` on top of its parameters.
 pub fn obtain(case: &Case, geo: &BTreeMap<String, f64>, file: Option<&Path>) -> Result<Meshed> {
     let start = Instant::now();
-    let Source { path, content, told, warnings } = match (file, &case.geometry) {
+    let Source { path, content, told, warnings } = match (
+        file,
+        case.geometry.as_ref().and_then(|geometry| geometry.source.as_ref()),
+    ) {
         (Some(path), _) if geo.is_empty() => found(path.to_path_buf())?,
         (Some(_), _) => return Err(Error::input("--geo changes a script's constants; it cannot be used with --mesh")),
-        (None, Some(Geometry::Mesh(path))) if geo.is_empty() => found(case.resolve(path))?,
-        (None, Some(Geometry::Mesh(path))) => {
+        (None, Some(MeshSource::Mesh(path))) if geo.is_empty() => found(case.resolve(path))?,
+        (None, Some(MeshSource::Mesh(path))) => {
             return Err(Error::input(format!(
                 "--geo changes a script's constants; {} takes its mesh from {}",
                 case.path().display(),
                 path.display()
             )));
         }
-        (None, Some(Geometry::Script { script, parameters })) => {
+        (None, Some(MeshSource::Script { script, parameters })) => {
             let all = parameters.iter().chain(geo).map(|(name, value)| (name.clone(), *value)).collect();
             made(&case.resolve(script), &all, mesh_path(case, geo))?
         }
@@ -55,7 +58,8 @@ pub fn obtain(case: &Case, geo: &BTreeMap<String, f64>, file: Option<&Path>) -> 
         }
     };
     let name = msh::file_name(&path);
-    let mesh = Mesh::from_msh(&msh::parse(&content.bytes, &name)?, &name)?;
+    let msh = msh::parse(&content.bytes, &name)?.scaled(case.mesh_unit().length());
+    let mesh = Mesh::from_msh(&msh, &name)?;
     Ok(Meshed {
         mesh,
         openings: Openings::default(),

@@ -1,11 +1,11 @@
 //! Whole runs: what each command does, from the case file to the last line on the screen.
 
 pub mod blast;
-mod bulk;
 pub mod check;
 pub mod constants;
 mod content;
 pub mod converge;
+mod cost;
 mod curve;
 mod damping;
 pub mod domain;
@@ -37,7 +37,7 @@ mod temporary;
 mod unsettled;
 mod words;
 
-/// `coralpipe schema`: the JSON Schema of the case file.
-pub fn schema() -> String {
-    format!("{:#}\n", crate::model::case::schema())
+/// `coralpipe schema`: the JSON Schema of the case file, or of the plan of a sweep.
+pub fn schema(of_sweep: bool) -> String {
+    format!("{:#}\n", if of_sweep { sweep::schema() } else { crate::model::case::schema() })
 }

@@ -1,10 +1,9 @@
 //! `coralpipe modes`: natural frequencies with the interfaces closed and sticking, and their shapes.
 
 use super::prepare::Prepared;
-use super::run::{Loaded, Request, load};
+use super::run::{Loaded, Request, load_structure};
 use super::screen::Screen;
 use crate::escape::one_line;
-use crate::model::idle::NOTHING_ACTS;
 use crate::results::file;
 use crate::results::folder::claim;
 use crate::results::foreign::refuse_foreign;
@@ -22,9 +21,9 @@ pub fn command(request: &Request, count: usize) -> Result<String> {
         return Err(Error::input("-n 0: ask for at least one mode"));
     }
     let screen = Screen::new(request.quiet);
-    let Loaded { case, meshed, model } = load(request)?;
+    let Loaded { case, meshed, model } = load_structure(request)?;
     screen.say(&meshed.told);
-    model.warnings.iter().filter(|w| *w != NOTHING_ACTS).for_each(|w| screen.warn(w));
+    model.warnings.iter().for_each(|w| screen.warn(w));
     let prepared = Prepared::beside(&meshed.path, model)?;
     let count = count.min(prepared.system.unknowns.count);
     if count > MOST_MODES {

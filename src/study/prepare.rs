@@ -60,7 +60,7 @@ impl Prepared {
         refuse_high_modes(damping, system.unknowns.count)?;
         let modes = if moves { modes_of(&model, &system, &symbolic, &orders, needed_modes(damping))? } else { vec![] };
         let rayleigh = coefficients(damping, &modes)?;
-        model.warnings.extend(damping::beyond_the_boundaries(&model, rayleigh.alpha));
+        model.warnings.extend(damping::warnings(&model, rayleigh));
         let joints = model.damping.is_some_and(|d| d.interfaces);
         let system = system.with_damping(rayleigh, joints);
         Ok(Prepared {
@@ -77,7 +77,7 @@ impl Prepared {
 
     /// Likewise for a model that differs in loads and friction only: nothing is assembled, ordered or solved again.
     pub fn with_loads_of(&self, mut model: Model) -> Result<Prepared> {
-        model.warnings.extend(damping::beyond_the_boundaries(&model, self.rayleigh.alpha));
+        model.warnings.extend(damping::warnings(&model, self.rayleigh));
         Ok(Prepared {
             system: self.system.with_loads_of(&model)?.into(),
             model: model.into(),

@@ -1,6 +1,6 @@
 //! `coralpipe run`: from the case to the results folder.
 
-use super::bulk;
+use super::cost::Cost;
 use super::finished::finished;
 use super::inputs::{made_from, replaced};
 use super::mesh::{self, Meshed};
@@ -11,7 +11,8 @@ use super::unsettled;
 use crate::escape::one_line;
 use crate::model::case::{Analysis, Case};
 use crate::model::hold::{afloat, refuse_loose};
-use crate::model::idle::idle;
+use crate::model::idle::{excitation, idle};
+use crate::model::implausible::implausible;
 use crate::model::initial::Initial;
 use crate::model::locking;
 use crate::model::openings::Openings;
@@ -49,6 +50,8 @@ pub struct Request {
     pub out: Option<PathBuf>,
     pub bonded: bool,
     pub quiet: bool,
+    /// whatever its size
+    pub large: bool,
 }
 
 impl Request {
@@ -81,7 +84,7 @@ pub(super) fn interrupted() -> bool {
     INTERRUPTED.load(Relaxed)
 }
 
-/// A case with its mesh and model: what `run`, `check` and `modes` start from.
+/// A case with its mesh and model: what most commands start from.
 pub struct Loaded {
     pub case: Case,
     pub meshed: Meshed,
@@ -89,18 +92,32 @@ pub struct Loaded {
 }
 
 pub fn load(request: &Request) -> Result<Loaded> {
+    let Loaded { case, meshed, mut model } = load_structure(request)?;
+    model.warnings.extend(excitation(&case, &model));
+    Ok(Loaded { case, meshed, model })
+}
+
+/// Without a word about loads and initial motion, which natural modes do not depend on.
+pub fn load_structure(request: &Request) -> Result<Loaded> {
     let case = Case::read(&request.case, &request.sets)?;
     let meshed = mesh::obtain(&case, &request.geo, request.mesh.as_deref())?;
-    let model = model(&case, &meshed, request.bonded, &Openings::default())?;
+    let model = structure(&case, &meshed, request.bonded, &Openings::default())?;
     Ok(Loaded { case, meshed, model })
 }
 
 /// With what is known of the mesh's `openings`: a single run keeps none.
 pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openings) -> Result<Model> {
+    let mut model = structure(case, meshed, bonded, openings)?;
+    model.warnings.extend(excitation(case, &model));
+    Ok(model)
+}
+
+fn structure(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openings) -> Result<Model> {
     let mut model = Model::opened(case, &meshed.mesh, bonded, openings)?;
     model.warnings.extend(idle(case, &model));
     model.warnings.extend(afloat(&model));
     model.warnings.extend(locking::warnings(&model));
+    model.warnings.extend(implausible(case, &model));
     model.warnings.extend(meshed.warnings.iter().cloned());
     Ok(model)
 }
@@ -130,12 +147,14 @@ fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> 
     let screen = Screen::new(request.quiet);
     let Loaded { case, meshed, mut model } = loaded;
     refuse_loose(&model)?;
-    model.warnings.extend(bulk::warning(&model));
+    let cost = Cost::of_run(&case, &meshed.mesh, true);
+    model.warnings.extend(cost.allowed(&request.folder(&case), request.large)?);
     model.warnings.extend(ring::uncut(&model));
     screen.say(&meshed.told);
     model.warnings.iter().for_each(|w| screen.warn(w));
     let told = model.warnings.len();
     let mut prepared = Prepared::beside(&meshed.path, model)?;
+    prepared.model.warnings[told..].iter().for_each(|w| screen.warn(w));
     screen.say(&format!("{} unknowns, {} joints", prepared.system.unknowns.count, prepared.model.joints.len()));
 
     let factoring = Instant::now();
@@ -162,7 +181,7 @@ fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> 
         let mut summary = recorder.finish(ending, inputs, &case.title, timing)?;
         summary.timing.total_s = started.elapsed().as_secs_f64();
         folder.write_summary(&summary.to_json())?;
-        summary.warnings[told..].iter().for_each(|w| screen.warn(w));
+        summary.warnings.iter().for_each(|w| screen.warn(w)); // those of the beginning are not repeated
         error.map_or(Ok(summary), Err)
     };
     let summary = march_and_write().map_err(|error| with_what_is_left(error, &folder))?;

@@ -7,7 +7,7 @@ use super::mesh;
 use super::run::{self, Request};
 use super::screen::tell;
 use crate::escape::one_line;
-use crate::model::case::{Case, Geometry};
+use crate::model::case::{Case, MeshSource};
 use crate::results::file;
 use crate::results::folder::summary;
 use crate::study::script::Script;
@@ -117,8 +117,8 @@ fn within(name: &str, error: Error) -> Error {
 ///
 /// Errors: the case's mesh is a file, or `--mesh` gives one: there is nothing to make another mesh from.
 pub fn script(case: &Case, request: &Request, why: &str) -> Result<(Script, BTreeMap<String, f64>)> {
-    let Some(Geometry::Script { script, parameters }) = case.geometry.as_ref().filter(|_| request.mesh.is_none())
-    else {
+    let source = case.geometry.as_ref().and_then(|geometry| geometry.source.as_ref());
+    let Some(MeshSource::Script { script, parameters }) = source.filter(|_| request.mesh.is_none()) else {
         return Err(Error::input(format!(
             "{why} needs a script to make other meshes from: write \"geometry\": {{ \"script\": \"NAME.geo\" }} in {}, \
              without --mesh; gmsh is found on PATH, in .venv, or by {VARIABLE}",

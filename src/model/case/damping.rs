@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::range;
+use super::schema::{self, NotNegative};
 use crate::model::units::{Rate, Time};
 
 /// Rayleigh damping, by its ratio in two modes or by its coefficients.
@@ -27,21 +28,32 @@ pub enum Rayleigh {
 /// `ratio` and `modes`, or `alpha` and `beta`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object")]
+#[schemars(transform = ratio_or_coefficients)]
 pub(super) struct DampingKeys {
     /// Fraction of critical damping [-] in both modes, at least 0 and less than 1.
     #[serde(default, deserialize_with = "range::optional_damping_ratio")]
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
     ratio: Option<f64>,
     /// Numbers of the two natural modes that get this ratio, counted from 1. Default: [1, 2].
+    #[schemars(inner(range(min = 1)), extend("uniqueItems" = true))]
     modes: Option<[usize; 2]>,
     /// Coefficient of the mass matrix [1/s], at least 0.
     #[serde(default, deserialize_with = "range::optional_not_negative")]
+    #[schemars(with = "Option<NotNegative<Rate>>")]
     alpha: Option<Rate>,
     /// Coefficient of the stiffness matrix [s], at least 0.
     #[serde(default, deserialize_with = "range::optional_not_negative")]
+    #[schemars(with = "Option<NotNegative<Time>>")]
     beta: Option<Time>,
     /// true damps the closed interfaces too (the paper's C(U)). Default: false.
     #[serde(default)]
     interfaces: bool,
+}
+
+fn ratio_or_coefficients(keys: &mut schemars::Schema) {
+    let ratio = schema::combination(&["ratio"], &["alpha", "beta"]);
+    let coefficients = schema::combination(&["alpha", "beta"], &["ratio", "modes"]);
+    keys.insert("oneOf".into(), vec![ratio, coefficients].into());
 }
 
 impl TryFrom<DampingKeys> for Damping {

@@ -1,12 +1,16 @@
-//! JSON in which no key stands twice: of two materials of one name, one would be lost without a word.
+//! JSON in which no key stands twice: of two materials of one name, one would be lost without a word. Comments, which are
+//! keys that begin with `_comment`, are left out.
 
 use std::fmt;
 
-use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 
-/// A JSON value whose objects have no key twice.
+/// How keys begin whose values are comments.
+pub const COMMENT: &str = "_comment";
+
+/// A JSON value whose objects have no key twice, without comments.
 pub struct Unique(pub Value);
 
 impl<'de> Deserialize<'de> for Unique {
@@ -59,6 +63,10 @@ impl<'de> Visitor<'de> for AnyValue {
     fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<Value, A::Error> {
         let mut map = Map::new();
         while let Some(key) = object.next_key::<String>()? {
+            if key.starts_with(COMMENT) {
+                object.next_value::<IgnoredAny>()?;
+                continue;
+            }
             if map.contains_key(&key) {
                 return Err(A::Error::custom(format_args!("the key {key:?} stands twice in one object")));
             }

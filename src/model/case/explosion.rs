@@ -5,27 +5,33 @@ use serde::Deserialize;
 
 use super::load::Clock;
 use super::range;
+use super::schema::{self, NotNegative, Positive};
 use crate::model::units::{Length, Mass};
 use crate::physics::explosion::{Burst, Explosion, Explosive, Form, Formula, Wave};
 
 /// A charge, its place, and whose formula gives the blast.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object")]
+#[schemars(transform = distance_or_place)]
 pub struct ExplosionKeys {
     /// Mass of the charge [kg], greater than 0.
     #[serde(deserialize_with = "range::positive")]
+    #[schemars(with = "Positive<Mass>")]
     charge: Mass,
     /// What it is made of. Default: "tnt".
     #[serde(default)]
     explosive: Explosive,
     /// Mass of TNT that a unit mass of it equals [-], greater than 0. Default: the explosive's, for the peak pressure.
     #[serde(default, deserialize_with = "range::optional_positive")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     equivalence: Option<f64>,
     /// Distance along the ground [m], greater than 0.
     #[serde(default, deserialize_with = "range::optional_positive")]
+    #[schemars(with = "Option<Positive<Length>>")]
     standoff: Option<Length>,
     /// Height of the burst above the ground [m]; the distance is that of both. Default: 0.
     #[serde(default, deserialize_with = "range::optional_not_negative")]
+    #[schemars(with = "Option<NotNegative<Length>>")]
     height: Option<Length>,
     /// Place (x, y) [m], instead of `standoff` and `height`: the blast sweeps over the curve.
     at: Option<[Length; 2]>,
@@ -41,6 +47,16 @@ pub struct ExplosionKeys {
     form: Form,
     /// What t = 0 is, with `at`: the wave reaches the curve ("arrival") or the charge explodes ("detonation"). Default: "arrival".
     clock: Option<Clock>,
+}
+
+/// At a distance, by `standoff`, `height` or both; or at a place.
+fn distance_or_place(keys: &mut schemars::Schema) {
+    let choices = [
+        schema::combination(&["at", "burst"], &["standoff", "height"]),
+        schema::combination(&["standoff"], &["at", "clock"]),
+        schema::combination(&["height"], &["at", "clock", "standoff"]),
+    ];
+    keys.insert("oneOf".into(), choices.to_vec().into());
 }
 
 /// A charge at a distance from all of the curve, or at a place.

@@ -8,6 +8,8 @@ use serde::{Deserialize, Deserializer, de};
 use super::explosion::{Blast, ExplosionKeys};
 use super::load::{Clock, Directed, Pressure};
 use super::range::{self, Number};
+use super::schema::{self, NotNegative, Positive};
+use super::sentence;
 use crate::model::units::{self, Impulse, Length, Time, Velocity};
 use crate::physics::explosion::Form;
 use crate::physics::friedlander;
@@ -17,20 +19,13 @@ use crate::physics::pulse::{Pulse, Suction};
 /// Name of a law in time.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-enum LawName {
-    /// falls in a straight line from `peak` at t = 0 to zero at `duration`
+pub enum LawName {
     Linear,
-    /// `peak` from t = 0 on
     Step,
-    /// straight lines between `values` at `times`, given here or in a `file`
     Table,
-    /// rises in a straight line to `peak` at `duration`, and stays
     Ramp,
-    /// half a sine wave of height `peak` until `duration`
     HalfSine,
-    /// `peak` (1 - t/duration) exp(-decay t/duration), then its negative phase if it has one
     Friedlander,
-    /// the blast of an `explosion`; pressures only
     Charge,
 }
 
@@ -38,31 +33,40 @@ enum LawName {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", bound(deserialize = "Q: Number<'de>"))]
 pub struct LawKeys<Q> {
+    #[serde(deserialize_with = "law_name")]
     law: LawName,
     /// Direction (x right, y up) of all loads but pressures; only its direction counts, not its length.
+    #[schemars(transform = schema::not_zero)]
     direction: Option<[f64; 2]>,
     /// Largest value: that at t = 0 (laws "linear", "step", "friedlander") or where the rise ends ("ramp", "half_sine").
     peak: Option<Q>,
     /// Time until zero [s], greater than 0; of the positive phase (law "friedlander"), of the rise (law "ramp").
     #[serde(default, deserialize_with = "range::optional_positive")]
+    #[schemars(with = "Option<Positive<Time>>")]
     duration: Option<Time>,
     /// Decay b [-], greater than -1, of p = peak (1 - t/duration) exp(-b t/duration) (law "friedlander"; or `impulse`).
     #[serde(default, deserialize_with = "range::optional_decay")]
+    #[schemars(extend("exclusiveMinimum" = -1))]
     decay: Option<f64>,
     /// Impulse of the positive phase [Pa s], from which the decay follows (law "friedlander"; or `decay`). Less than 0.718 peak times duration.
     #[serde(default, deserialize_with = "range::optional_positive")]
+    #[schemars(with = "Option<Positive<Impulse>>")]
     impulse: Option<Impulse>,
     /// The pulse itself, or a straight line for it (law "friedlander"). Default: "friedlander".
     form: Option<Form>,
     /// Depth of the negative phase, greater than 0: from `duration` on the load is -6.75 negative_peak s (1 - s)^2, s the time since then over `negative_duration`; deepest at a third of it (law "friedlander"). Default: no negative phase.
     #[serde(default, deserialize_with = "range::optional_positive")]
+    #[schemars(with = "Option<Positive<Q>>")]
     negative_peak: Option<Q>,
     /// Duration of the negative phase [s], greater than 0; given where `negative_peak` is (law "friedlander").
     #[serde(default, deserialize_with = "range::optional_positive")]
+    #[schemars(with = "Option<Positive<Time>>")]
     negative_duration: Option<Time>,
     /// Times [s], each later than the one before; zero before the first, the last value held (law "table").
+    #[schemars(with = "Option<Vec<NotNegative<Time>>>", length(min = 2))]
     times: Option<Vec<Time>>,
     /// Values at the times (law "table").
+    #[schemars(length(min = 2))]
     values: Option<Vec<Q>>,
     /// Text file in place of `times` and `values`: a time and a value a line, decimal points, with commas, semicolons or blanks between; `#` starts a comment. In SI, unless its first line is a heading with units in square brackets: `t [ms], p [kPa]`.
     file: Option<PathBuf>,
@@ -74,23 +78,33 @@ pub struct LawKeys<Q> {
     scale: Option<f64>,
     /// Straight rise from zero to the first value [s], in place of a jump. Default: 0.
     #[serde(default, deserialize_with = "range::optional_not_negative")]
+    #[schemars(with = "Option<NotNegative<Time>>")]
     rise: Option<Time>,
     /// Time at which the law begins [s]. Default: 0.
     #[serde(default, deserialize_with = "range::optional_not_negative")]
+    #[schemars(with = "Option<NotNegative<Time>>")]
     start: Option<Time>,
 }
 
 /// A front that travels; t = 0 is when it reaches the curve.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object")]
-struct FrontKeys {
+#[schemars(transform = plane_or_circle)]
+pub struct FrontKeys {
     /// Speed [m/s], greater than 0. Default: the speed of the shock, where the law is "charge".
     #[serde(default, deserialize_with = "range::optional_positive")]
+    #[schemars(with = "Option<Positive<Velocity>>")]
     speed: Option<Velocity>,
     /// Direction (x, y) in which a plane front travels.
+    #[schemars(transform = schema::not_zero)]
     direction: Option<[f64; 2]>,
     /// Point (x, y) [m] that a circular front comes from at `speed`, in place of `direction`; each point's pulse begins as the front reaches it.
     from: Option<[Length; 2]>,
+}
+
+fn plane_or_circle(keys: &mut schemars::Schema) {
+    let choices = [schema::combination(&["direction"], &["from"]), schema::combination(&["from"], &["direction"])];
+    keys.insert("oneOf".into(), choices.to_vec().into());
 }
 
 /// Reads a pressure: its law, and its front if it has one.
@@ -123,9 +137,39 @@ fn unit(direction: [f64; 2]) -> Result<[f64; 2], String> {
     }
 }
 
+/// The sentence for a wrong name is made here, where it is known that it should be a law's.
+fn law_name<'de, D: Deserializer<'de>>(input: D) -> Result<LawName, D::Error> {
+    LawName::deserialize(input).map_err(|why| de::Error::custom(sentence::of_noun("law", &why.to_string())))
+}
+
 impl LawName {
+    pub const ALL: [LawName; 7] = [
+        LawName::Linear,
+        LawName::Step,
+        LawName::Table,
+        LawName::Ramp,
+        LawName::HalfSine,
+        LawName::Friedlander,
+        LawName::Charge,
+    ];
+
+    /// What the load does.
+    pub fn words(self) -> &'static str {
+        match self {
+            LawName::Linear => "falls in a straight line from `peak` at t = 0 to zero at `duration`",
+            LawName::Step => "`peak` from t = 0 on",
+            LawName::Table => "straight lines between `values` at `times`, given here or in a `file`",
+            LawName::Ramp => "rises in a straight line to `peak` at `duration`, and stays",
+            LawName::HalfSine => "half a sine wave of height `peak` until `duration`",
+            LawName::Friedlander => {
+                "`peak` (1 - t/duration) exp(-decay t/duration), then its negative phase if it has one"
+            }
+            LawName::Charge => "the blast of an `explosion`; pressures only",
+        }
+    }
+
     /// Its keys: in words, then those it must have and those it may have.
-    fn keys(self) -> (&'static str, &'static str, &'static [&'static str], &'static [&'static str]) {
+    pub fn keys(self) -> (&'static str, &'static str, &'static [&'static str], &'static [&'static str]) {
         match self {
             LawName::Linear => ("linear", "\"peak\" and \"duration\"", &["peak", "duration"], &[]),
             LawName::Step => ("step", "\"peak\"", &["peak"], &[]),
@@ -144,6 +188,7 @@ impl LawName {
 }
 
 /// Keys that every law may have.
+pub const COMMON_KEYS: [&str; 3] = ["scale", "rise", "start"];
 const COMMON: &str = "\"scale\", \"rise\" and \"start\"";
 
 impl<Q: Into<f64> + Copy> LawKeys<Q> {

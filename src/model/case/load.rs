@@ -7,8 +7,10 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::{Deserialize, Deserializer, de};
+use serde_json::{Map, Value, json};
 
-use super::law::{self, LawKeys};
+use super::law;
+use super::law_schema::{DirectedLaw, PressureLaw};
 use crate::model::units::{self, ForceDensity, LineForce};
 use crate::physics::front::Front;
 use crate::physics::pulse::Pulse;
@@ -16,29 +18,30 @@ use crate::physics::pulse::Pulse;
 /// One load of one group.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "an object with one kind of load")]
+#[schemars(transform = one_kind)]
 pub enum Load {
     /// Pressure on a curve group [Pa]; positive presses on the body.
     Pressure(
         #[serde(deserialize_with = "law::pressure")]
-        #[schemars(with = "LawKeys<units::Pressure>")]
+        #[schemars(with = "PressureLaw")]
         Pressure,
     ),
     /// Force per area on a curve group [Pa], in a fixed direction.
     Traction(
         #[serde(deserialize_with = "law::directed::<_, units::Pressure>")]
-        #[schemars(with = "LawKeys<units::Pressure>")]
+        #[schemars(with = "DirectedLaw<units::Pressure>")]
         Directed,
     ),
     /// Force per volume of a face group [N/m^3].
     BodyForce(
         #[serde(deserialize_with = "law::directed::<_, ForceDensity>")]
-        #[schemars(with = "LawKeys<ForceDensity>")]
+        #[schemars(with = "DirectedLaw<ForceDensity>")]
         Directed,
     ),
     /// Force on a point group, per metre of depth [N/m].
     Force(
         #[serde(deserialize_with = "law::directed::<_, LineForce>")]
-        #[schemars(with = "LawKeys<LineForce>")]
+        #[schemars(with = "DirectedLaw<LineForce>")]
         Directed,
     ),
 }
@@ -52,6 +55,23 @@ impl Load {
             Load::Force(_) => 0,
         }
     }
+}
+
+/// In place of a choice of objects one object with a choice of keys: what is wrong inside is then reported at its place.
+fn one_kind(load: &mut Schema) {
+    let Some(Value::Array(kinds)) = load.remove("oneOf") else { return };
+    let mut properties = Map::new();
+    let mut choices = Vec::new();
+    for kind in kinds {
+        for (key, law) in kind["properties"].as_object().into_iter().flatten() {
+            properties.insert(key.clone(), json!({ "$ref": law["$ref"], "description": kind["description"] }));
+        }
+        choices.push(json!({ "required": kind["required"] }));
+    }
+    load.insert("type".into(), "object".into());
+    load.insert("properties".into(), properties.into());
+    load.insert("additionalProperties".into(), false.into());
+    load.insert("oneOf".into(), choices.into());
 }
 
 /// How a pressure acts on a curve.
@@ -125,8 +145,8 @@ impl JsonSchema for Loads {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let load = generator.subschema_for::<Load>();
         let object = generator.subschema_for::<BTreeMap<String, Load>>();
-        let list = generator.subschema_for::<Vec<BTreeMap<String, Load>>>();
-        json_schema!({ "anyOf": [object, list] })
+        json_schema!({ "type": ["object", "array"], "additionalProperties": load, "items": object })
     }
 }

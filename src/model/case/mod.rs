@@ -6,15 +6,19 @@
 mod damping;
 mod duplicate;
 mod explosion;
+mod geometry;
 mod interface;
 mod law;
+mod law_schema;
 mod load;
 mod material;
 mod probe;
 mod range;
 mod read;
+mod schema;
 mod sentence;
 mod set;
+mod strict;
 mod table;
 mod time;
 
@@ -31,18 +35,22 @@ use damping::DampingKeys;
 pub use damping::{Damping, Rayleigh};
 pub use duplicate::Unique;
 pub use explosion::{Blast, ExplosionKeys};
+use geometry::GeometryKeys;
+pub use geometry::{Geometry, MeshSource, MeshUnit};
 pub use interface::{Integration, Interface};
 pub use load::{Clock, Directed, Load, Loads, Pressure};
 pub use material::Material;
 pub use probe::Probe;
+pub use schema::{of_file as schema_of_file, schema};
 pub use sentence::{from_serde as sentence_of, nearest};
 pub use time::{Integrator, Newmark, Newton, Output, Start, TimeStepping};
 
 /// Materials, interfaces, supports, loads and time of one calculation; every name is a physical group of the mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object")]
+#[schemars(transform = nothing_of_motion_in_statics)]
 pub struct Case {
-    /// for editors: where this schema lies; ignored
+    /// For editors: where this schema lies; ignored.
     #[serde(rename = "$schema", default)]
     _schema: Option<String>,
     /// What is calculated, for people.
@@ -80,6 +88,7 @@ pub struct Case {
     pub damping: Option<Damping>,
     /// Gravity, downwards [m/s^2]; a dynamic calculation starts from the equilibrium under it. Default: 0.
     #[serde(default, deserialize_with = "range::not_negative")]
+    #[schemars(with = "schema::NotNegative<Acceleration>")]
     pub gravity: Acceleration,
     /// Velocity and displacement at t = 0 by group, named as in supports; the rest is at rest. Default: none.
     #[serde(default)]
@@ -108,40 +117,16 @@ pub struct Case {
     json: Value,
 }
 
-/// Where the mesh comes from.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(try_from = "GeometryKeys")]
-pub enum Geometry {
-    /// a Gmsh script (`.geo`, path as written) and the constants it is run with, in the script's own units
-    Script { script: PathBuf, parameters: BTreeMap<String, f64> },
-    /// a mesh file (`.msh`, path as written)
-    Mesh(PathBuf),
-}
-
-/// `script`, with `parameters` if wanted, or `mesh`; paths start at the case file.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "an object")]
-struct GeometryKeys {
-    /// Gmsh script (.geo).
-    script: Option<PathBuf>,
-    /// Constants of the script (DefineConstant) by name, in its own units. Default: the script's values.
-    #[serde(default)]
-    parameters: BTreeMap<String, f64>,
-    /// Gmsh mesh (.msh), in place of a script.
-    mesh: Option<PathBuf>,
-}
-
-impl TryFrom<GeometryKeys> for Geometry {
-    type Error = &'static str;
-
-    fn try_from(keys: GeometryKeys) -> Result<Self, Self::Error> {
-        match (keys.script, keys.mesh) {
-            (Some(script), None) => Ok(Geometry::Script { script, parameters: keys.parameters }),
-            (None, Some(mesh)) if keys.parameters.is_empty() => Ok(Geometry::Mesh(mesh)),
-            (None, Some(_)) => Err("\"parameters\" belong to a \"script\", not to a \"mesh\""),
-            _ => Err("write either \"script\" (a .geo, with \"parameters\" if wanted) or \"mesh\" (a .msh)"),
-        }
-    }
+/// Statics has no motion at the start and no time in which joints chatter.
+fn nothing_of_motion_in_statics(case: &mut schemars::Schema) {
+    let is_static =
+        serde_json::json!({ "required": ["analysis"], "properties": { "analysis": { "const": "static" } } });
+    let without = serde_json::json!({ "properties": {
+        "initial": { "additionalProperties": false },
+        "time": { "properties": { "energy_tolerance": { "type": "null" } } },
+    } });
+    case.insert("if".into(), is_static);
+    case.insert("then".into(), without);
 }
 
 /// A direction of the plane: x right, y up.
@@ -231,6 +216,11 @@ impl Case {
         self.path.parent().unwrap_or(Path::new("")).join(path)
     }
 
+    /// Unit of the mesh's coordinates.
+    pub fn mesh_unit(&self) -> MeshUnit {
+        self.geometry.as_ref().map_or(MeshUnit::default(), |geometry| geometry.unit)
+    }
+
     /// What was calculated: the file after `--set`, with the tables of loads read in.
     pub fn json(&self) -> &Value {
         &self.json
@@ -246,9 +236,4 @@ impl Case {
         let step = self.time.step.0;
         self.output.every.map_or_else(|| step * (self.time.end.0 / 100.0 / step).round().max(1.0), f64::from)
     }
-}
-
-/// JSON Schema of the case file, for editors.
-pub fn schema() -> Value {
-    schemars::schema_for!(Case).into()
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::value::MapAccessDeserializer;
 use serde::{Deserialize, Deserializer, de};
 
@@ -32,6 +32,7 @@ impl Probe {
 #[serde(deny_unknown_fields)]
 struct PlaceKeys {
     /// Head of its columns.
+    #[schemars(length(min = 1))]
     name: String,
     /// Coordinates x and y [m].
     at: [Length; 2],
@@ -70,7 +71,10 @@ impl JsonSchema for Probe {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let place = generator.subschema_for::<PlaceKeys>();
-        json_schema!({ "anyOf": [{ "type": "string", "description": "A physical point." }, place] })
+        let mut probe = PlaceKeys::json_schema(generator);
+        probe.insert("type".into(), ["string", "object"].as_slice().into());
+        probe.insert("minLength".into(), 1.into());
+        probe.insert("description".into(), "The name of a physical point, or a place.".into());
+        probe
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::duplicate::Unique;
+use super::strict::Strict;
 use super::{Analysis, Case, sentence, set, table};
 use crate::input::{self, Kind};
 use crate::{Error, Result};
@@ -55,7 +56,7 @@ fn refuse_other_kinds(path: &Path) -> Result<()> {
 
 fn from_json(json: Value, folder: &Path) -> std::result::Result<Case, String> {
     let json = with_tables(json, folder)?;
-    let case: Case = serde_path_to_error::deserialize(&json).map_err(|why| {
+    let case: Case = serde_path_to_error::deserialize(Strict(&json)).map_err(|why| {
         let what = sentence::from_serde(&why.inner().to_string());
         match why.path().to_string().as_str() {
             "." => what,
@@ -63,7 +64,13 @@ fn from_json(json: Value, folder: &Path) -> std::result::Result<Case, String> {
         }
     })?;
     validate(&case, &json)?;
-    Ok(Case { json, ..case })
+    Ok(Case { json: without_schema(json), ..case })
+}
+
+/// The place of the schema is no part of what is calculated.
+fn without_schema(mut json: Value) -> Value {
+    json.as_object_mut().map(|keys| keys.shift_remove("$schema"));
+    json
 }
 
 fn with_tables(mut json: Value, folder: &Path) -> std::result::Result<Value, String> {

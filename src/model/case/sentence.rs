@@ -22,11 +22,28 @@ pub fn from_serde(message: &str) -> String {
     }
 }
 
+/// A sentence for a name that must be that of a `noun`: `"linaer" is no law (did you mean "linear"?); there are: ...`
+pub fn of_noun(noun: &str, message: &str) -> String {
+    match message.strip_prefix("unknown variant `").and_then(|rest| rest.split_once("`, expected ")) {
+        Some((word, known)) => {
+            let (hint, known) = hint_and_list(word, known);
+            format!("\"{word}\" is no {noun}{hint}; there are: {known}")
+        }
+        None => from_serde(message),
+    }
+}
+
 /// `known` is serde's list: names between backticks.
 fn unknown(there_is_no: &str, word: &str, there_are: &str, known: &str) -> String {
+    let (hint, known) = hint_and_list(word, known);
+    format!("{there_is_no} \"{word}\"{hint}; {there_are}: {known}")
+}
+
+/// ` (did you mean "linear"?)` where a name is near, and all names.
+fn hint_and_list(word: &str, known: &str) -> (String, String) {
     let known: Vec<_> = known.split('`').skip(1).step_by(2).filter(|name| *name != "$schema").collect();
     let hint = nearest(word, known.iter().copied()).map(|name| format!(" (did you mean \"{name}\"?)"));
-    format!("{there_is_no} \"{word}\"{}; {there_are}: {}", hint.unwrap_or_default(), known.join(", "))
+    (hint.unwrap_or_default(), known.join(", "))
 }
 
 /// `invalid type: string "abc", expected f64` -> `string "abc" stands where a number is expected`

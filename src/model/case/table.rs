@@ -34,7 +34,9 @@ fn within(json: Value, folder: &Path, place: &str, unit: Option<Unit>) -> Result
         Value::Object(map) if map.get("law").and_then(Value::as_str) == Some("table") => {
             let file = map.get("file").and_then(Value::as_str).map(|file| folder.join(file));
             let (Some(file), Some(unit)) = (file, unit) else { return Ok(Value::Object(map)) };
-            if let Some(key) = ["times", "values"].iter().find(|key| map.contains_key(**key)) {
+            if let Some(key) =
+                ["times", "values"].iter().find(|key| map.get(**key).is_some_and(|given| !given.is_null()))
+            {
                 return Err(format!(
                     "{place}: a \"table\" has both \"file\" and \"{key}\": times and values stand here or in the file, so leave \
                      one out"

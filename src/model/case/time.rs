@@ -4,26 +4,32 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::range;
+use super::schema::Positive;
 use crate::model::units;
 
 /// The time that is calculated, from t = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object")]
+#[schemars(extend("not" = { "required": ["hht", "newmark"], "properties": { "hht": { "not": { "const": 0 } } } }))]
 pub struct TimeStepping {
     /// Time step [s], greater than 0.
     #[serde(deserialize_with = "range::positive")]
+    #[schemars(with = "Positive<units::Time>")]
     pub step: units::Time,
     /// End [s], at least one step.
     #[serde(deserialize_with = "range::positive")]
+    #[schemars(with = "Positive<units::Time>")]
     pub end: units::Time,
     /// Parameters of Newmark's method. Default: the trapezium rule.
     #[serde(default)]
     pub newmark: Newmark,
     /// Numerical damping alpha of Hilber, Hughes and Taylor [-], from -1/3 to 0; sets alpha and delta of Newmark's method. Default: 0, none.
     #[serde(default, deserialize_with = "range::hht")]
+    #[schemars(extend("minimum" = -1.0 / 3.0, "maximum" = 0))]
     pub hht: f64,
     /// Steps are cut in half, up to five times, so that joints which open and close within them make no more than this share of the largest stored energy over the run [-], greater than 0 and less than 1. Default: none, no step is cut for it.
     #[serde(default, deserialize_with = "range::optional_tolerance")]
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub energy_tolerance: Option<f64>,
     /// Acceleration at t = 0: "equilibrium" or "rest". Default: "equilibrium".
     #[serde(default)]
@@ -35,8 +41,10 @@ pub struct TimeStepping {
 #[serde(deny_unknown_fields, default, expecting = "an object")]
 pub struct Newmark {
     /// Weight of the new acceleration in the displacement [-]. Default: 0.25.
+    #[schemars(range(min = 0.25))]
     pub alpha: f64,
     /// Weight of the new acceleration in the velocity [-]. Default: 0.5.
+    #[schemars(range(min = 0.5))]
     pub delta: f64,
 }
 
@@ -81,9 +89,11 @@ pub enum Start {
 pub struct Newton {
     /// Residual over load [-], greater than 0 and less than 1. Default: 1e-8.
     #[serde(deserialize_with = "range::tolerance")]
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub tolerance: f64,
     /// Iterations before the step is cut, at least 1. Default: 30.
     #[serde(deserialize_with = "range::at_least_one")]
+    #[schemars(range(min = 1))]
     pub max_iterations: usize,
 }
 
@@ -99,5 +109,6 @@ impl Default for Newton {
 pub struct Output {
     /// Time between frames [s], at least one step. Default: a hundredth of the end.
     #[serde(deserialize_with = "range::optional_positive")]
+    #[schemars(with = "Option<Positive<units::Time>>")]
     pub every: Option<units::Time>,
 }

@@ -33,7 +33,7 @@ pub struct Msh {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
     pub tag: usize,
-    /// in the unit of the file, finite
+    /// in the unit of the file, or after [`Msh::scaled`] in metres; finite
     pub xyz: [f64; 3],
 }
 
@@ -58,6 +58,12 @@ pub struct PhysicalName {
 }
 
 impl Msh {
+    /// With all coordinates times a factor: those of another unit in metres.
+    pub fn scaled(mut self, factor: f64) -> Msh {
+        self.nodes.iter_mut().for_each(|node| node.xyz = node.xyz.map(|x| factor * x));
+        self
+    }
+
     pub fn element_count(&self) -> usize {
         self.blocks.iter().map(|b| b.element_tags.len()).sum()
     }

@@ -10,11 +10,12 @@ use crate::model::mesh::Mesh;
 use crate::model::resolve::Model;
 use crate::number::short;
 use crate::results::histories::Peak;
+use crate::study::cost::Cost;
 use crate::study::mesh;
 use crate::study::quantity::Quantity;
 use crate::study::richardson::Estimate;
-use crate::study::run::{self, Request};
-use crate::study::screen::show_copy;
+use crate::study::run::{self, Loaded, Request};
+use crate::study::screen::{Screen, show_copy};
 use crate::study::script::Script;
 use crate::study::series::{self, Member, Series, Variant};
 use crate::{Error, Result};
@@ -74,6 +75,8 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
     let loaded = run::load(request)?;
     let quantities = Quantity::all(&options.compare, &loaded, &["u", "a"])?;
     let frames = if quantities.iter().any(Quantity::is_ring) { case.frame_interval() } else { case.time.end.0 };
+    let warning = cost(request, &loaded, options.ratio, frames)?.allowed(&request.folder(&case), request.large)?;
+    warning.iter().for_each(|warning| Screen::new(request.quiet).warn(warning));
     let series = Series::new(request, request.folder(&case).join("converge"));
     let fine = |k: i32| rounded(refine * options.ratio.powi(k));
     refuse_equal_meshes(request, &case, options, [0, 1, 2].map(fine))?;
@@ -104,6 +107,14 @@ pub fn command(request: &Request, options: &Options) -> Result<String> {
     Err(Error::NoConvergence(
         "no peak converges on these meshes and time steps: the table says how each goes on".into(),
     ))
+}
+
+/// Of the five runs, with a frame every `frames` [s]: the meshes grow by the square of the ratio, the steps double.
+fn cost(request: &Request, loaded: &Loaded, ratio: f64, frames: f64) -> Result<Cost> {
+    let sets = request.sets.iter().cloned().chain([format!("output.every={frames:e}")]);
+    let case = Case::read(&request.case, &sets.collect::<Vec<_>>())?;
+    let factor = 1. + ratio.powi(2) + ratio.powi(4) + STEP_RATIO + STEP_RATIO.powi(2);
+    Ok(Cost::of_run(&case, &loaded.meshed.mesh, true).repeated(5, factor, 4))
 }
 
 /// Errors where the constant does not make the elements smaller by about the ratio: three alike meshes agree in

@@ -2,7 +2,7 @@
 
 use super::report::short;
 use super::{Options, Size};
-use crate::model::case::{Case, Geometry};
+use crate::model::case::{Case, MeshSource};
 use crate::model::resolve::Model;
 use crate::study::run::Request;
 use crate::study::script::Script;
@@ -42,8 +42,8 @@ pub fn core(script: &Script, options: &Options, start: Size, given: &[String]) -
 
 /// Constants that the case or the command line sets.
 pub fn given(case: &Case, request: &Request) -> Vec<String> {
-    let parameters = match &case.geometry {
-        Some(Geometry::Script { parameters, .. }) => parameters.keys().cloned().collect(),
+    let parameters = match case.geometry.as_ref().and_then(|geometry| geometry.source.as_ref()) {
+        Some(MeshSource::Script { parameters, .. }) => parameters.keys().cloned().collect(),
         _ => vec![],
     };
     request.geo.keys().cloned().chain(parameters).collect()

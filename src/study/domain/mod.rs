@@ -7,10 +7,11 @@ mod alike;
 mod bound;
 mod report;
 
+use super::cost::Cost;
 use super::history::{Change, History};
 use super::quantity::Quantity;
-use super::run::{self, Request};
-use super::screen::show_copy;
+use super::run::{self, Loaded, Request};
+use super::screen::{Screen, show_copy};
 use super::series::{self, Member, Series, Variant};
 use crate::model::arrival::{Returns, returns};
 use crate::model::case::{Analysis, Case};
@@ -137,9 +138,13 @@ impl<'a> Study<'a> {
             )));
         }
         let until = window(&case, options.until.as_deref())?;
-        let quantities = Quantity::all(&options.compare, &run::load(request)?, &["u"])?;
+        let loaded = run::load(request)?;
+        let quantities = Quantity::all(&options.compare, &loaded, &["u"])?;
         // frames cost time and disk; only rings need them
         let frames = if quantities.iter().any(Quantity::is_ring) { case.frame_interval() } else { case.time.end.0 };
+        let sets = vec![format!("output.every={frames:e}")];
+        let warning = cost(request, &loaded, options.growth, &sets)?.allowed(&request.folder(&case), request.large)?;
+        warning.iter().for_each(|warning| Screen::new(request.quiet).warn(warning));
         Ok(Study {
             options,
             series: Series::new(request, request.folder(&case).join("domain")),
@@ -151,7 +156,7 @@ impl<'a> Study<'a> {
             inner_mesh_is_kept: alike::core_names(options)
                 .iter()
                 .all(|name| script.constants.iter().any(|c| c.name == *name)),
-            sets: vec![format!("output.every={frames:e}")],
+            sets,
         })
     }
 
@@ -242,6 +247,12 @@ impl<'a> Study<'a> {
         ];
         Ok(format!("written: {}\n", names.join(", ")))
     }
+}
+
+/// Of the four runs that are the least: the case itself, wider, higher, and both at once.
+fn cost(request: &Request, loaded: &Loaded, growth: f64, sets: &[String]) -> Result<Cost> {
+    let case = Case::read(&request.case, &[&request.sets, sets].concat())?;
+    Ok(Cost::of_run(&case, &loaded.meshed.mesh, true).repeated(4, (1. + growth).powi(2), 1))
 }
 
 /// End of the window that is compared [s].

@@ -69,6 +69,7 @@ impl Job {
             out: Some(folder.clone()),
             bonded: plan.bonded,
             quiet: true,
+            large: true,
         };
         let inputs = made_from(&case, &meshed, &request);
         Ok(Job { number, name: variant.name.clone(), case, meshed, inputs, folder })

@@ -9,6 +9,7 @@ mod report;
 mod shelf;
 mod table;
 
+use super::cost::Cost;
 use super::finished::{ended, finished};
 use super::run;
 use super::screen::Screen;
@@ -28,7 +29,14 @@ use table::Row;
 pub struct SweepRequest {
     pub plan: PathBuf,
     pub out: Option<PathBuf>,
+    /// whatever the size of all runs together
+    pub large: bool,
     pub quiet: bool,
+}
+
+/// JSON Schema of a plan, for editors.
+pub fn schema() -> serde_json::Value {
+    crate::model::case::schema_of_file::<Plan>()
 }
 
 /// `coralpipe sweep`: runs what is not done yet, each into a folder of its own, and returns the table, which is also
@@ -51,6 +59,9 @@ pub fn command(request: &SweepRequest) -> Result<String> {
     if to_do.len() == count {
         refuse_hopeless(&to_do, &variants)?;
     }
+    let costs = to_do.iter().map(|job| Cost::of_run(&job.case, &job.meshed.mesh, plan.frames));
+    let warning = Cost::together(costs).map(|cost| cost.allowed(&folder, request.large)).transpose()?.flatten();
+    warning.iter().for_each(|warning| screen.warn(warning));
     let shelf = Shelf::open(&folder, &request.plan)?;
     shelf.before.iter().for_each(|sentence| screen.say(sentence));
     let replaced = to_do.iter().filter(|job| replaces(job)).count();

@@ -3,29 +3,80 @@
 use crate::input::{self, Kind};
 use crate::model::case::Unique;
 use crate::{Error, Result};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A SWEEP.json. Every combination of the listed values is a run.
-#[derive(Debug, Deserialize)]
+/// The plan of a sweep: every combination of the listed values is a run.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object")]
+#[schemars(transform = varies_something)]
 pub struct Plan {
-    /// the case, seen from the plan
+    /// For editors: where this schema lies; ignored.
+    #[serde(rename = "$schema", default)]
+    _schema: Option<String>,
+    /// The case file; a relative path starts at the plan.
     pub case: PathBuf,
-    /// path of a key in the case, as for `--set`: the values it takes
+    /// Path of a key in the case, as for --set: the values it takes. Default: none.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Values>")]
     pub set: Map<String, Value>,
-    /// constant of the script, as for `--geo`: the numbers it takes
+    /// Constant of the case's script, as for --geo: the numbers it takes. Default: none.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Numbers>")]
     pub geo: Map<String, Value>,
-    /// glue pipes and ground together
+    /// true glues pipes and ground together. Default: false.
     #[serde(default)]
     pub bonded: bool,
-    /// write frames for ParaView too, not only histories, rings and summaries
+    /// true writes frames for ParaView too, not only histories, rings and summaries. Default: false.
     #[serde(default)]
     pub frames: bool,
+}
+
+/// A list of values, none twice, in the schema.
+struct Values;
+
+/// A list of numbers, none twice, in the schema.
+struct Numbers;
+
+impl JsonSchema for Values {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Values".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "array", "minItems": 1, "uniqueItems": true })
+    }
+}
+
+impl JsonSchema for Numbers {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Numbers".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "array", "minItems": 1, "uniqueItems": true, "items": { "type": "number" } })
+    }
+}
+
+/// `set` or `geo` has an entry that is no comment.
+fn varies_something(plan: &mut Schema) {
+    let has_entries = |key: &str| {
+        let entries = json!({ "not": { "additionalProperties": false } });
+        json!({ "required": [key], "properties": { key: entries } })
+    };
+    plan.insert("anyOf".into(), json!([has_entries("set"), has_entries("geo")]));
 }
 
 /// One run of a plan.
