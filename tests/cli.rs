@@ -97,6 +97,8 @@ fn a_bad_mesh_is_refused_with_its_place() {
     let bench = Bench::new("mesh");
     let mesh = block_msh();
     bench.write("empty.msh", "");
+    bench.write("solid.stl", "solid cube\nfacet normal 0 0 1\n");
+    bench.write("plate.geo", "Point(1) = {0, 0, 0, 0.1};\nLine(1) = {1, 2};\n");
     bench.write("cut.msh", &mesh[..mesh.len() - 400]);
     bench.write("cut_nodes.msh", &mesh[..400]);
     bench.write("no_faces.msh", mesh.lines().take_while(|l| *l != "$Elements").collect::<Vec<_>>().join("\n"));
@@ -114,6 +116,9 @@ fn a_bad_mesh_is_refused_with_its_place() {
                 "block.json --set geometry.mesh=nowhere.msh",
                 &["nowhere.msh", "No such file"],
             ),
+            ("another format for a mesh", "block.json --mesh solid.stl", &["solid.stl", "STL", "-format msh41"]),
+            ("another format for a case", "mesh.inp", &["mesh.inp is a mesh in another format", "gmsh mesh.inp -save"]),
+            ("a script for a mesh", "block.json --mesh plate.geo", &["plate.geo", "Gmsh script", "geometry.script"]),
             ("folder for a mesh", "block.json --mesh .", &["the mesh .", "Is a directory"]),
             ("no mesh", "block.json --mesh block.json", &["block.json", "no Gmsh mesh", "$MeshFormat"]),
             ("empty mesh file", "block.json --mesh empty.msh", &["empty.msh", "empty"]),
@@ -122,7 +127,7 @@ fn a_bad_mesh_is_refused_with_its_place() {
             ("no elements", "block.json --mesh no_faces.msh", &["no_faces.msh", "$Elements"]),
             ("a bent plane", "block.json --mesh bent.msh", &["bent.msh", "node 8", "z = 0.5"]),
             ("a node nowhere", "block.json --mesh nan.msh", &["nan.msh", "$Nodes", "NaN"]),
-            ("a folded element", "block.json --mesh folded.msh", &["folded.msh"]),
+            ("a folded element", "block.json --mesh folded.msh", &["folded.msh", "Quad4 element of \"ground\" at ("]),
             ("a mesh in space", "block.json --mesh tetrahedron.msh", &["tetrahedron.msh"]),
             ("a mesh without names", "block.json --mesh no_groups.msh", &["physical_2_1"]),
         ],

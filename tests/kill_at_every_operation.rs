@@ -11,9 +11,13 @@ use program::{Bench, CASE, code_of, failing_run};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
+
+/// Faults strike the program only, not what it starts.
+const GMSH: &str = "#!/bin/sh\nfor OUT; do :; done\necho \"Info    : Reading '$2'...\"\n/bin/cp block.msh \"$OUT\"\n";
 
 /// What strikes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -262,13 +266,24 @@ fn try_all(fault: Fault, every: usize) {
         succeed(bench, "sweep plan.json --quiet");
         plan(bench, "2 ms");
     };
-    let scenes = [
+    let scripted = |bench: &Bench| {
+        bench.write("script.json", CASE.replace("\"mesh\": \"block.msh\"", "\"script\": \"block.geo\""));
+        bench.write("block.geo", "Include \"block.dat\";\n");
+        bench.write("block.dat", "// nothing\n");
+        fs::create_dir_all(bench.path(".venv/bin")).unwrap();
+        bench.write(".venv/bin/gmsh", GMSH);
+        fs::set_permissions(bench.path(".venv/bin/gmsh"), PermissionsExt::from_mode(0o755)).unwrap();
+    };
+    let mut scenes = vec![
         Scene { name: "over", command: RUN, folders: &["block"], prepare: &earlier },
         Scene { name: "failed", command: RUN, folders: &["block"], prepare: &failed },
         Scene { name: "first", command: RUN, folders: &[], prepare: &|_| {} },
         Scene { name: "sweep", command: "sweep plan.json --quiet", folders: &RUNS, prepare: &swept },
         Scene { name: "modes", command: "modes block.json -n 2", folders: &[], prepare: &|_| {} },
     ];
+    if fault == Fault::Kill {
+        scenes.push(Scene { name: "mesh", command: "mesh script.json", folders: &[], prepare: &scripted });
+    }
     for (i, scene) in scenes.into_iter().enumerate() {
         let name = scene.name;
         let strikes = Trial::new(scene, fault).run(1 + i % every, every);

@@ -31,11 +31,11 @@ pub(super) fn named_groups(mut members: Members, names: &[PhysicalName], file: &
         cells.dedup();
         twice += all - cells.len();
         let name = name_of(dimension, tag, names);
-        if let Some((other, twin)) = groups.iter().find(|(_, g)| (g.dimension, &g.name) == (dimension, &name)) {
+        if let Some((other, same)) = groups.iter().find(|(_, g)| (g.dimension, &g.name) == (dimension, &name)) {
             return Err(Error::input(format!(
                 "{file} has two physical groups of {} called \"{name}\", {other} and {tag}, and the name would mean one of \
                  them or both; give each its own name",
-                twin.kind()
+                same.kind()
             )));
         }
         groups.push((tag, Group { name, dimension, cells }));

@@ -1,11 +1,11 @@
 //! From what a mesh file says to the plane mesh of the model.
 
 use super::degenerate::{Origin, sound};
+use super::duplicates::Duplicates;
 use super::groups::{Members, name_of, named_groups};
 use super::mesh::{Cell, Mesh, Shape};
 use super::msh::{self, Block, Msh, Node};
 use super::sides::refuse_unlike_sides;
-use super::twins::Twins;
 use crate::number::short_to;
 use crate::{Error, Result};
 use std::collections::HashMap;
@@ -40,7 +40,7 @@ impl Mesh {
 
         let (mut mesh, new_index) = points_of(&msh.nodes, &used, name);
         let mut members = Members::new();
-        let mut twins = Twins::new(mesh.points.len());
+        let mut duplicates = Duplicates::new(mesh.points.len());
         let mut tags = Vec::new();
         for ((block, shape), old_nodes) in kept.iter().zip(shapes).zip(nodes) {
             let group = block.physicals.first().map(|p| name_of(shape.dimension(), p.abs(), &msh.names));
@@ -48,9 +48,9 @@ impl Mesh {
             for (nodes, &tag) in old_nodes.chunks_exact(shape.node_count()).zip(&block.element_tags) {
                 let nodes = nodes.iter().map(|&old| new_index[old]).collect();
                 let cell = sound(&mesh, Cell { shape, nodes }, origin(tag))?;
-                let twin = twins.find(&cell, &mesh.cells);
-                tags.extend(twin.is_none().then_some(tag));
-                let id = twin.unwrap_or_else(|| mesh.add(cell, &mut twins));
+                let same = duplicates.find(&cell, &mesh.cells);
+                tags.extend(same.is_none().then_some(tag));
+                let id = same.unwrap_or_else(|| mesh.add(cell, &mut duplicates));
                 for physical in &block.physicals {
                     members.entry((shape.dimension(), physical.abs())).or_default().push(id);
                 }
@@ -63,11 +63,11 @@ impl Mesh {
     }
 
     /// Adds a cell, a clockwise face turned.
-    fn add(&mut self, cell: Cell, twins: &mut Twins) -> usize {
+    fn add(&mut self, cell: Cell, duplicates: &mut Duplicates) -> usize {
         let clockwise = self.measure(&cell) < 0.0;
         self.turned += usize::from(clockwise);
         self.cells.push(if clockwise { turned(&cell) } else { cell });
-        twins.add(&self.cells);
+        duplicates.add(&self.cells);
         self.cells.len() - 1
     }
 }

@@ -29,13 +29,14 @@ pub fn sides(mesh: &Mesh, face: &Cell) -> [f64; 2] {
 
 /// A folded element has a Jacobian determinant that is not positive at an integration point: it cannot be integrated.
 pub fn refuse_folded(mesh: &Mesh) -> Result<()> {
-    for cell in mesh.cells.iter().filter(|c| c.shape.dimension() == 2) {
+    for (number, cell) in mesh.cells.iter().enumerate().filter(|(_, c)| c.shape.dimension() == 2) {
         let at: Vec<[f64; 2]> = cell.nodes.iter().map(|&n| mesh.points[n]).collect();
         let rules = [Integral::Stiffness, Integral::Mass];
         if rules.iter().flat_map(|&rule| element::points(cell.shape, &at, rule)).any(|p| p.dv <= 0.) {
             let place = place(mesh.centroid(cell));
+            let of: String = mesh.groups_of(number).map(|group| format!(" of \"{}\"", group.name)).collect();
             return Err(Error::input(format!(
-                "the {:?} element at {place} in {} is folded (its Jacobian determinant is not positive \
+                "the {:?} element{of} at {place} in {} is folded (its Jacobian determinant is not positive \
                  everywhere): mesh that place more finely or move its points",
                 cell.shape, mesh.name
             )));

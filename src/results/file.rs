@@ -96,9 +96,9 @@ pub fn not_written(path: &Path, why: &io::Error) -> Error {
         (ErrorKind::NotFound, Some(folder)) => {
             (format!("there is no folder {}, or it was removed meanwhile", folder.display()), "choose")
         }
-        (ErrorKind::StorageFull, _) => (format!("the disk is full ({why})"), "free some space, or choose"),
+        (ErrorKind::StorageFull, _) => (format!("the disk is full: {why}"), "free some space, or choose"),
         (ErrorKind::QuotaExceeded, _) => {
-            (format!("the space that the system allows you is used up ({why})"), "free some space, or choose")
+            (format!("the space that the system allows you is used up: {why}"), "free some space, or choose")
         }
         _ => (why.to_string(), "choose"),
     };
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn a_full_disk_and_a_lost_folder_are_named() {
         let told = |path: &str, kind: ErrorKind| not_written(Path::new(path), &kind.into()).to_string();
-        assert!(told("/x.csv", ErrorKind::StorageFull).starts_with("/x.csv cannot be written: the disk is full ("));
+        assert!(told("/x.csv", ErrorKind::StorageFull).starts_with("/x.csv cannot be written: the disk is full: "));
         let lost = told("/nowhere/at/all.csv", ErrorKind::NotFound);
         assert!(lost.contains("there is no folder /nowhere/at, or it was removed meanwhile"), "{lost}");
     }

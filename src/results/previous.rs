@@ -19,7 +19,6 @@ pub const MOVING: &str = "previous.part";
 /// there. Continues where a kill stopped an earlier call.
 pub fn keep(folder: &Path, entries: &[String]) -> Result<()> {
     let (previous, moving) = (folder.join(PREVIOUS), folder.join(MOVING));
-    let resumed = moving.exists();
     file::create_folder_within(&moving)?;
     // What says that results are whole comes last.
     match entries.iter().rev().try_for_each(|entry| link(&folder.join(entry), &moving.join(entry))) {
@@ -27,7 +26,7 @@ pub fn keep(folder: &Path, entries: &[String]) -> Result<()> {
         Err(e) if matches!(e.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded) => {
             return Err(not_written(&moving, &e));
         }
-        Err(_) => rename_each(folder, entries, resumed)?,
+        Err(_) => rename_each(folder, entries)?,
     }
     remove(folder)?;
     std::fs::rename(&moving, &previous).map_err(|e| not_written(&previous, &e))?;
@@ -35,16 +34,25 @@ pub fn keep(folder: &Path, entries: &[String]) -> Result<()> {
 }
 
 /// On a disk without hard links, where a kill may leave some of the results here and some there until the next run.
-fn rename_each(folder: &Path, entries: &[String], resumed: bool) -> Result<()> {
-    let moving = folder.join(MOVING);
-    if !resumed {
-        file::remove(&moving)?;
-        file::create_folder_within(&moving)?;
-    }
+fn rename_each(folder: &Path, entries: &[String]) -> Result<()> {
     entries.iter().try_for_each(|entry| {
         let from = folder.join(entry);
-        std::fs::rename(&from, moving.join(entry)).map_err(|e| not_written(&from, &e))
+        rename(&from, &folder.join(MOVING).join(entry)).map_err(|e| not_written(&from, &e))
     })
+}
+
+/// A folder joins the one of that name which an earlier call may have left there.
+fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    if from.symlink_metadata()?.is_dir() && to.is_dir() {
+        std::fs::read_dir(from)?.try_for_each(|entry| {
+            let entry = entry?;
+            rename(&entry.path(), &to.join(entry.file_name()))
+        })?;
+        return std::fs::remove_dir(from);
+    }
+    std::fs::rename(from, to)?;
+    // Of two names of one file the system leaves both.
+    if from.symlink_metadata().is_ok() { std::fs::remove_file(from) } else { Ok(()) }
 }
 
 /// A second name for a file, or for each file of a folder.
@@ -77,5 +85,30 @@ pub fn remove(folder: &Path) -> Result<()> {
         Ok(()) => file::remove(&hidden),
         Err(e) if e.kind() == ErrorKind::NotFound => Ok(()),
         Err(_) => file::remove(&previous),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// Some frames are linked when linking fails: the others, and what else there is, are renamed to join them.
+    #[test]
+    fn results_of_which_some_are_linked_are_brought_together_by_renaming() {
+        let folder = std::env::temp_dir().join(format!("coralpipe-{}-previous", std::process::id()));
+        fs::create_dir_all(folder.join("frames")).unwrap();
+        for name in ["frames/0.vtu", "frames/1.vtu", "run.sta"] {
+            fs::write(folder.join(name), name).unwrap();
+        }
+        let moving = folder.join(MOVING);
+        fs::create_dir_all(moving.join("frames")).unwrap();
+        fs::hard_link(folder.join("frames/1.vtu"), moving.join("frames/1.vtu")).unwrap();
+        rename_each(&folder, &["frames".into(), "run.sta".into()]).unwrap();
+        for name in ["frames/0.vtu", "frames/1.vtu", "run.sta"] {
+            assert_eq!(fs::read_to_string(moving.join(name)).unwrap(), name);
+        }
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "only {MOVING} is left");
+        fs::remove_dir_all(folder).unwrap();
     }
 }

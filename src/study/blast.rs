@@ -54,6 +54,7 @@ fn write(path: &Path, points: &[[f64; 2]]) -> Result<()> {
         _ => return Err(Error::input(format!("--out {}: write a file .csv or .svg", path.display()))),
     };
     let instead = if path.exists() { ", in place of the file that was there" } else { "" };
+    file::remove_parts_of(path);
     file::replace(path, text.as_bytes())?;
     tell(&format!("curve of {} points written to {}{instead}", points.len(), path.display()));
     Ok(())

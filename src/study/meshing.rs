@@ -77,7 +77,7 @@ pub fn ensure_mesh_with(
     mesh: &Path,
     find: impl FnOnce() -> Result<Gmsh>,
 ) -> Result<Meshing> {
-    remove_leftovers(mesh.parent().unwrap_or(Path::new("")));
+    remove_leftovers(mesh);
     let wanted = Record::wanted(&Script::read(script)?, parameters)?;
     let old = Content::read(mesh).ok();
     let record_file = mesh.with_extension("json");

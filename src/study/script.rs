@@ -7,6 +7,7 @@ use crate::input::{self, Kind};
 use crate::model::case::nearest;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// A Gmsh script and the constants of the scripts that it includes.
@@ -30,7 +31,8 @@ impl Script {
         while let Some(file) = waiting.pop() {
             let included = match seen.is_empty() {
                 true => Ok(script.bytes.clone()),
-                false => input::read(&file, Kind::Script),
+                false if file.is_file() => input::read(&file, Kind::Script),
+                false => Err(ErrorKind::NotFound.into()),
             };
             // a file that is missing is for Gmsh to report
             if let Ok(bytes) = included {

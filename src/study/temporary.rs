@@ -1,7 +1,7 @@
 //! Files on their way to a place where readers look for whole ones: `meshes/.x.msh.4711`, renamed to `meshes/x.msh`.
 
 use crate::model::msh::file_name;
-use crate::results::file::remove_parts;
+use crate::results::file::remove_parts_of;
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::os::unix::fs::MetadataExt;
@@ -63,9 +63,9 @@ pub(super) fn is_full(e: &io::Error) -> bool {
     matches!(e.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge)
 }
 
-/// Removes what processes that no longer live have left in a folder of meshes.
-pub(super) fn remove_leftovers(folder: &Path) {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+/// Removes what processes that no longer live have left in the folder of a mesh.
+pub(super) fn remove_leftovers(mesh: &Path) {
+    let folder = mesh.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let is_ours = entry.file_name().to_str().is_some_and(is_temporary);
         // locked by a process that still writes it, or on a disk without locks: left alone
@@ -73,8 +73,7 @@ pub(super) fn remove_leftovers(folder: &Path) {
             let _ = std::fs::remove_file(entry.path());
         }
     }
-    // on the way to `x.orders`, which is only a cache
-    remove_parts(folder);
+    remove_parts_of(&mesh.with_extension("orders"));
 }
 
 /// `.x.msh.4711` and `.x.json.4711`: a mesh and its record.

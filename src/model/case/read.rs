@@ -50,6 +50,12 @@ fn refuse_other_kinds(path: &Path) -> Result<()> {
              gives its groups materials, supports and loads; geo/twin_pipes.json is one",
             path.file_name().unwrap_or_default().to_string_lossy()
         ))),
+        Some(
+            "inp" | "vtk" | "vtu" | "stl" | "unv" | "med" | "mesh" | "bdf" | "nas" | "cgns" | "ply" | "su2" | "off",
+        ) => Err(Error::input(format!(
+            "{file} is a mesh in another format, and a case is needed, a .json that gives its groups materials, supports and \
+                 loads: convert the mesh, gmsh {file} -save -format msh41 -o NAME.msh, and name it in the case"
+        ))),
         _ => Ok(()),
     }
 }

@@ -3,18 +3,18 @@
 use super::mesh::Cell;
 
 /// Finds a cell that has the same nodes as another: those that share their smallest node are chained.
-pub(super) struct Twins {
+pub(super) struct Duplicates {
     /// by smallest node: the last cell that has it
     last: Vec<usize>,
     /// by cell: the one before it in the chain
     before: Vec<usize>,
 }
 
-impl Twins {
+impl Duplicates {
     const NONE: usize = usize::MAX;
 
-    pub(super) fn new(points: usize) -> Twins {
-        Twins { last: vec![Self::NONE; points], before: Vec::new() }
+    pub(super) fn new(points: usize) -> Duplicates {
+        Duplicates { last: vec![Self::NONE; points], before: Vec::new() }
     }
 
     fn smallest(cell: &Cell) -> usize {
