@@ -45,7 +45,9 @@ impl Sources {
                 sources.doubts.push(format!("the name of {} is not UTF-8 and cannot be recorded", file.display()));
                 continue;
             };
-            let content = Content::read(&file).ok();
+            let content = content(&file);
+            let is_special = content.is_none() && file.exists() && !file.is_dir();
+            sources.doubts.extend(is_special.then(|| format!("what {key} holds cannot be recorded")));
             if file != script {
                 sources.files.insert(key.clone(), content.as_ref().map(|c| c.sha256.clone()));
                 sources.doubts.extend(changed_since(&file, since).then(|| format!("{key} changed while gmsh ran")));
@@ -78,7 +80,7 @@ impl Parsed {
 pub(super) fn changes(files: &BTreeMap<String, Option<String>>, script: &Path) -> Vec<String> {
     let folder = script.parent().unwrap_or(Path::new(""));
     let change = |(key, old): (&String, &Option<String>)| {
-        let now = Content::read(&place(key, folder)).ok().map(|content| content.sha256);
+        let now = content(&place(key, folder)).map(|content| content.sha256);
         match (old, now) {
             (None, Some(_)) => Some(format!("{key} is new")),
             (Some(_), None) => Some(format!("{key} is gone")),
@@ -86,6 +88,11 @@ pub(super) fn changes(files: &BTreeMap<String, Option<String>>, script: &Path) -
         }
     };
     files.iter().filter_map(change).collect()
+}
+
+/// None where there is no file, or a device or pipe that may give something else each time.
+fn content(file: &Path) -> Option<Content> {
+    if file.is_file() { Content::read(file).ok() } else { None }
 }
 
 /// `box.geo` -> `box.geo.opt`, which gmsh reads after the script, or a file that is merged, where it exists.
