@@ -1,5 +1,6 @@
 //! The condensed contact step against the plain method: full Newton on all nodal displacements, a sparse LU of the
-//! whole tangent in every iteration, with an assembly and a time integration of its own.
+//! whole tangent in every iteration, with an assembly and a time integration of its own. Meshes: a ring, and a bedding
+//! plane that runs into both sides of a box.
 
 mod support;
 
@@ -32,13 +33,16 @@ const MATERIALS: [(&str, f64, f64, f64, f64); 4] = [
 
 /// The tolerance is tight because the fixed point on Tresca's bound, which a few steps need, ends at it; Newton's
 /// method itself ends at round-off.
-fn case(integration: &str, alpha: f64, delta: f64) -> Value {
+fn case(bodies: &[(&str, &str)], integration: &str, alpha: f64, delta: f64) -> Value {
+    let interface = |&(curve, body): &(&str, &str)| {
+        (curve.into(), json!({ "body": body, "thickness": THICKNESS, "integration": integration }))
+    };
     let material = |&(name, young, poisson, density, friction): &(&str, f64, f64, f64, f64)| {
         (name.into(), json!({ "young": young, "poisson": poisson, "density": density, "friction": friction }))
     };
     json!({
         "materials": Value::Object(MATERIALS.iter().map(material).collect()),
-        "interfaces": { "interface_left": { "body": "pipe_left", "thickness": THICKNESS, "integration": integration } },
+        "interfaces": Value::Object(bodies.iter().map(interface).collect()),
         "supports": { "base": ["x", "y"], "side_left": ["x"], "side_right": ["x"] },
         "loads": { "surface": { "pressure": { "law": "linear", "peak": PEAK, "duration": DURATION } } },
         "damping": { "alpha": ALPHA, "beta": BETA },
@@ -86,12 +90,16 @@ fn constants(group: &str) -> (Material, f64) {
     (Material { young, poisson, density }, friction)
 }
 
-/// At the nodes of a smooth curve both elements' points take the mean of the two normals, weighted by length.
+/// At the nodes of a smooth curve (turn below 30 degrees) both elements' points take the mean of the two normals,
+/// weighted by length.
 fn with_mean_normals(points: Vec<JointPoint>, at_nodes: bool) -> Vec<JointPoint> {
-    let node = |p: &JointPoint| p.shares[0].0;
+    let is_smooth = |a: &JointPoint, b: &JointPoint| a.normal.dot(&b.normal) > 30_f64.to_radians().cos();
     let mean = |point: &JointPoint| {
-        let same = points.iter().filter(|p| node(p) == node(point));
-        same.map(|p| p.normal * p.area).sum::<Vector2<f64>>().normalize()
+        let same = points.iter().filter(|p| p.shares == point.shares);
+        match same.clone().all(|p| is_smooth(p, point)) {
+            true => same.map(|p| p.normal * p.area).sum::<Vector2<f64>>().normalize(),
+            false => point.normal,
+        }
     };
     let turned = |point: &JointPoint| {
         let normal = mean(point);
@@ -271,10 +279,17 @@ fn solve(lu: &faer::sparse::linalg::solvers::Lu<usize, f64>, b: &[f64]) -> Vecto
     x.col_as_slice(0).to_vec()
 }
 
-/// Largest difference of any displacement at any step over the largest displacement, and most points open, slipping.
-fn compare(integration: &str, alpha: f64, delta: f64) -> (f64, [usize; 2]) {
-    let mesh = Mesh::read(&root().join("tests/meshes/one_ring.msh")).unwrap();
-    let model = support::model(&case(integration, alpha, delta), &mesh);
+/// What the two methods are compared on.
+struct Comparison {
+    /// largest difference of any displacement at any step over the largest displacement
+    difference: f64,
+    /// most joint points of plain Newton's open and slipping at a time
+    most: [usize; 2],
+}
+
+/// `bodies`: (curve, body) of each interface.
+fn compare(mesh: &Mesh, bodies: &[(&str, &str)], integration: &str, alpha: f64, delta: f64) -> Comparison {
+    let model = support::model(&case(bodies, integration, alpha, delta), mesh);
     let system = System::new(&model).unwrap().with_damping(Rayleigh { alpha: ALPHA, beta: BETA }, false);
     let plain = Plain::new(&model, integration == "lobatto", alpha, delta);
     let mut motion = plain.start();
@@ -298,17 +313,28 @@ fn compare(integration: &str, alpha: f64, delta: f64) -> (f64, [usize; 2]) {
         steps += 1;
     });
     assert_eq!(steps, STEPS + 1);
-    (difference / largest, most)
+    Comparison { difference: difference / largest, most }
+}
+
+fn is_full_newton(mesh: &Mesh, bodies: &[(&str, &str)]) {
+    for (integration, alpha, delta) in [("lobatto", 0.25, 0.5), ("gauss_1", 0.3025, 0.6)] {
+        let Comparison { difference, most: [open, slipping] } = compare(mesh, bodies, integration, alpha, delta);
+        println!("{integration}, {alpha}, {delta}: {difference:.1e}; at most {open} points open, {slipping} slipping");
+        assert!(difference < 1e-9, "{integration}: {difference:.1e} of the peak");
+        assert!(open > 4 && slipping > 4, "the joints must open and slip: {open} and {slipping}");
+    }
 }
 
 /// 400 steps of a small ground with one pipe that comes off and slips; both integrations of the joints, and both the
 /// average acceleration and damped Newmark parameters, which all of its constants take part in.
 #[test]
 fn the_condensed_step_is_full_newton_on_the_whole_system() {
-    for (integration, alpha, delta) in [("lobatto", 0.25, 0.5), ("gauss_1", 0.3025, 0.6)] {
-        let (difference, [open, slipping]) = compare(integration, alpha, delta);
-        println!("{integration}, {alpha}, {delta}: {difference:.1e}; at most {open} points open, {slipping} slipping");
-        assert!(difference < 1e-9, "{integration}: {difference:.1e} of the peak");
-        assert!(open > 4 && slipping > 4, "the joints must open and slip: {open} and {slipping}");
-    }
+    let mesh = Mesh::read(&root().join("tests/meshes/one_ring.msh")).unwrap();
+    is_full_newton(&mesh, &[("interface_left", "pipe_left")]);
+}
+
+/// At the two T-junctions three copies of a node have three pairs, of whose jumps two are independent.
+#[test]
+fn the_condensed_step_is_full_newton_where_interfaces_meet() {
+    is_full_newton(&support::junction::box_on_a_bed().mesh(), &[("interface_left", "pipe_left"), ("bed", "layer_2")]);
 }

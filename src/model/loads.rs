@@ -3,7 +3,7 @@
 use super::boundary::{Border, border};
 use super::case::{self, Case, Clock, Directed, Pressure};
 use super::charge;
-use super::mesh::Mesh;
+use super::mesh::{BODY_SIDE, GROUND_SIDE, Group, Mesh};
 use super::moving_front::MovingFront;
 use super::resolve::{Load, Target};
 use super::sides::Sides;
@@ -17,17 +17,24 @@ use crate::{Error, Result};
 pub fn loads(case: &Case, mesh: &Mesh, sides: &Sides, warnings: &mut Vec<String>) -> Result<Vec<Load>> {
     let mut load = |(name, load): (&str, &case::Load)| {
         let group = mesh.group_of(name, load.dimension(), "load")?;
-        let lines =
-            || -> Result<Vec<Border>> { Ok(border(mesh, group, sides)?.into_iter().map(|(line, _)| line).collect()) };
+        let lines_of = |group: &Group| -> Result<Vec<Border>> {
+            Ok(border(mesh, group, sides)?.into_iter().map(|(line, _)| line).collect())
+        };
+        // in a joint a pressure presses on both sides
+        let pressed = || -> Result<Vec<Border>> {
+            Ok(mesh.both_sides(group).map(lines_of).collect::<Result<Vec<_>>>()?.concat())
+        };
         let everywhere =
             |d: &Directed, target| Load { group: name.into(), pulse: d.pulse.clone(), target, front: None };
         Ok(match load {
             case::Load::Pressure(p) => {
-                let (load, notes) = pressure(name, p, lines()?, mesh).map_err(|why| in_case(case, name, &why))?;
+                let (load, notes) = pressure(name, p, pressed()?, mesh).map_err(|why| in_case(case, name, &why))?;
                 warnings.extend(notes.into_iter().map(|note| format!("load on {name}: {note}")));
                 load
             }
-            case::Load::Traction(d) => everywhere(d, Target::Traction { lines: lines()?, direction: d.direction }),
+            case::Load::Traction(d) => {
+                everywhere(d, Target::Traction { lines: lines_of(one_side(mesh, group)?)?, direction: d.direction })
+            }
             case::Load::BodyForce(d) => {
                 everywhere(d, Target::BodyForce { cells: group.cells.clone(), direction: d.direction })
             }
@@ -37,6 +44,17 @@ pub fn loads(case: &Case, mesh: &Mesh, sides: &Sides, warnings: &mut Vec<String>
         })
     };
     case.loads.iter().map(&mut load).collect()
+}
+
+/// The curve that a traction acts on. Errors: it lies on an interface, and no side of it is named.
+fn one_side<'a>(mesh: &Mesh, group: &'a Group) -> Result<&'a Group> {
+    let name = &group.name;
+    match mesh.ground_side(group) {
+        None => Ok(group),
+        Some(_) => Err(Error::input(format!(
+            "loads.{name}: a traction acts on one side of an interface: write \"{name}{BODY_SIDE}\" or \"{name}{GROUND_SIDE}\""
+        ))),
+    }
 }
 
 /// A pressure on its lines, and what of its explosion does not fit.

@@ -100,7 +100,7 @@ impl Mesh {
     }
 
     fn no_group(&self, name: &str) -> Error {
-        let mut names: Vec<&str> = self.groups.iter().map(|g| g.name.as_str()).collect();
+        let mut names: Vec<&str> = self.groups.iter().filter(|g| !g.is_a_side()).map(|g| g.name.as_str()).collect();
         names.sort_unstable();
         names.dedup();
         let hint = names.iter().find_map(|other| lookalike(name, other)).unwrap_or_default();

@@ -19,6 +19,11 @@ impl Cell {
     }
 }
 
+/// What the name of a group ends with that holds the body's side of an interface.
+pub const BODY_SIDE: &str = "@body";
+/// What the name of a group ends with that holds the ground's side of an interface.
+pub const GROUND_SIDE: &str = "@ground";
+
 /// A physical group: its name and its members, all of one dimension.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
@@ -27,6 +32,13 @@ pub struct Group {
     pub dimension: usize,
     /// indices into [`Mesh::cells`], ascending; empty if the file names a group that has no elements
     pub cells: Vec<usize>,
+}
+
+impl Group {
+    /// Whether it holds one side of an interface, which the geometry does not name.
+    pub fn is_a_side(&self) -> bool {
+        self.name.ends_with(BODY_SIDE) || self.name.ends_with(GROUND_SIDE)
+    }
 }
 
 /// Points in metres, in the plane; every cell stands once however many groups it belongs to.
@@ -50,6 +62,17 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The ground's side of a group of curves or points that lies on an interface; none for other groups.
+    pub fn ground_side(&self, group: &Group) -> Option<&Group> {
+        let name = format!("{}{GROUND_SIDE}", group.name);
+        self.groups.iter().find(|g| g.dimension == group.dimension && g.name == name)
+    }
+
+    /// A group and, where it lies on an interface and names no side itself, its ground's side.
+    pub fn both_sides<'a>(&'a self, group: &'a Group) -> impl Iterator<Item = &'a Group> {
+        std::iter::once(group).chain(self.ground_side(group))
+    }
+
     /// The groups a cell belongs to.
     pub fn groups_of(&self, cell: usize) -> impl Iterator<Item = &Group> {
         let dimension = self.cells[cell].shape.dimension();

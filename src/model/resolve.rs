@@ -123,12 +123,13 @@ impl Model {
     /// Likewise, with what is known of the mesh's `openings`.
     pub fn opened(case: &Case, mesh: &Mesh, bonded: bool, openings: &Openings) -> Result<Model> {
         let mut warnings = Vec::new();
-        let (materials, material_of) = materials(case, mesh, &mut warnings)?;
+        let (materials, mut material_of) = materials(case, mesh, &mut warnings)?;
         let interfaces = seams(case, mesh, &mut warnings);
         let bodies: BTreeSet<String> = interfaces.iter().map(|seam| seam.body.clone()).collect();
         let seams = if bonded { vec![] } else { interfaces };
         let (Opened { mesh, pairs, joints, sides }, allowed) = openings.of(mesh, &seams, &case.slits)?;
         warnings.extend(allowed.warnings);
+        material_of.resize(mesh.cells.len(), None);
         let law = |joint: &Joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]);
         let laws = joints.iter().map(law).collect::<Result<_>>()?;
         warnings.extend(unused_groups(case, &mesh));
@@ -293,7 +294,7 @@ fn supports(case: &Case, mesh: &Mesh) -> Result<Vec<[bool; 2]>> {
     }
     for (name, axes) in &case.supports {
         let group = mesh.group(name).map_err(|e| Error::input(format!("supports: {e}")))?;
-        for node in mesh.nodes_of(group) {
+        for node in mesh.both_sides(group).flat_map(|group| mesh.nodes_of(group)) {
             axes.iter().for_each(|axis| fixed[node][axis.index()] = true);
         }
     }
@@ -332,7 +333,7 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
 
 /// Groups of curves and surfaces that the case does not use.
 fn unused_groups(case: &Case, mesh: &Mesh) -> Option<String> {
-    let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !is_used(g, case, mesh));
+    let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !g.is_a_side() && !is_used(g, case, mesh));
     let names: Vec<_> = unused.map(|g| escape::name(&g.name)).collect();
     (!names.is_empty()).then(|| format!("groups of {} that the case does not use: {}", mesh.name, names.join(", ")))
 }

@@ -16,15 +16,14 @@ impl Groups {
     pub fn new(model: &Model) -> Groups {
         let mut groups = Groups { cells: BTreeMap::new(), nodes: BTreeMap::new() };
         let place: HashMap<usize, usize> = model.faces().enumerate().map(|(place, (cell, _))| (cell, place)).collect();
-        let ground: HashMap<usize, usize> = model.pairs.iter().map(|pair| (pair.body, pair.ground)).collect();
         let [cells, nodes] = [place.len() + model.joints.len(), model.mesh.points.len()];
-        for group in model.mesh.groups.iter().filter(|group| !group.cells.is_empty()) {
+        for group in model.mesh.groups.iter().filter(|group| !group.cells.is_empty() && !group.is_a_side()) {
             if group.dimension == 2 {
                 mark(&mut groups.cells, &group.name, cells, group.cells.iter().map(|cell| place[cell]));
             } else {
-                let of_body = model.mesh.nodes_of(group);
-                let others = of_body.iter().filter_map(|node| ground.get(node).filter(|_| group.dimension == 1));
-                mark(&mut groups.nodes, &group.name, nodes, of_body.iter().chain(others).copied());
+                let ground = model.mesh.ground_side(group).filter(|_| group.dimension == 1);
+                let members = std::iter::once(group).chain(ground).flat_map(|group| model.mesh.nodes_of(group));
+                mark(&mut groups.nodes, &group.name, nodes, members);
             }
         }
         for (seam, name) in model.seams.iter().map(|seam| &seam.curve).enumerate() {

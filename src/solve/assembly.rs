@@ -42,8 +42,8 @@ fn of_nodes<'a>(unknowns: &'a Unknowns, nodes: &'a [usize]) -> impl Iterator<Ite
 fn pattern(model: &Model, unknowns: &Unknowns, faces: &[(usize, &Material)]) -> CsMat<f64> {
     let faces = faces.iter().map(|(cell, _)| of_nodes(unknowns, &model.mesh.cells[*cell].nodes).collect());
     let joints = model.joints.iter().map(|joint| {
-        let nodes: Vec<usize> = joint.pairs.iter().map(|&p| model.pairs[p]).flat_map(|p| [p.ground, p.body]).collect();
-        of_nodes(unknowns, &nodes).collect()
+        let jumps = joint.pairs.iter().flat_map(|&pair| unknowns.jumps[pair].iter().flatten());
+        jumps.flat_map(|&(jump, _)| unknowns.sides.of(jump).map(|(unknown, _)| unknown)).collect()
     });
     let cliques: Vec<Vec<usize>> = faces.chain(joints).collect();
     Graph::from_cliques(unknowns.count, cliques.iter().map(Vec::as_slice)).zeros()

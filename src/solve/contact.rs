@@ -334,7 +334,8 @@ mod tests {
             worn.into_iter().for_each(|by| contact.inverse.wear(by));
             let solution = contact.newton(&problem, &still).expect("no statuses run in a circle here");
             let jump = interface.local(&interface.points[0], &solution.jumps);
-            let in_place = [0, 1].map(|axis| unknowns.jumps[0][axis].map_or(0., |place| solution.jumps[place]));
+            let in_place = [0, 1]
+                .map(|axis| unknowns.jumps[0][axis].iter().map(|&(place, s)| s * solution.jumps[place]).sum::<f64>());
             let ends = [0, 2].map(|node| unknowns.at_node(&solution.border, node));
             let apart = (0..2).map(|axis| ends[0][axis] - ends[1][axis] - in_place[axis]);
             assert!(apart.into_iter().all(|apart| apart.abs() < 1e-14), "jump of the ends");

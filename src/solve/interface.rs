@@ -2,6 +2,7 @@
 //!
 //! Virtual work: r(j) = sum over points of area N' R' t(R N j), R turning global axes into (tangential, normal).
 
+use super::unknowns::PairJump;
 use crate::model::case::Integration;
 use crate::model::mesh::Mesh;
 use crate::model::split::{Joint, Pair};
@@ -74,13 +75,13 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// `laws` per joint element; `places` of the jumps of each pair, none where supports hold both nodes.
+    /// `laws` per joint element; `jumps` of each pair and axis.
     pub fn new(
         mesh: &Mesh,
         pairs: &[Pair],
         joints: &[Joint],
         laws: &[(JointLaw, Integration)],
-        places: &[[Option<usize>; 2]],
+        jumps: &[[PairJump; 2]],
     ) -> Interface {
         let points: Vec<JointPoint> = joints
             .iter()
@@ -93,12 +94,12 @@ impl Interface {
                     .map(move |(r, w)| joint_point(number, joint, law, &at, r, w))
             })
             .collect();
-        let count = places.iter().flatten().flatten().count();
+        let count = jumps.iter().flatten().flatten().map(|(place, _)| place + 1).max().unwrap_or(0);
         let mut points = united(with_common_normals(points));
         let mut seen = Vec::new();
         for point in &mut points {
             let first = seen.len();
-            seen.extend(seen_by(point, places));
+            seen.extend(seen_by(point, jumps));
             point.seen = first..seen.len();
         }
         Interface { count, points, seen }
@@ -157,13 +158,22 @@ impl Interface {
     }
 }
 
-/// What a point sees of the jumps; `places` of each pair and axis.
-fn seen_by(point: &JointPoint, places: &[[Option<usize>; 2]]) -> Vec<(usize, Vector2<f64>)> {
+/// (place, column of R N) of the jumps that a point sees; `jumps` of each pair and axis.
+fn seen_by(point: &JointPoint, jumps: &[[PairJump; 2]]) -> Vec<(usize, Vector2<f64>)> {
     let rotation = point.rotation();
-    let of_pair = |&(pair, n): &(usize, f64)| {
-        (0..2).filter_map(move |axis| Some((places[pair][axis]?, rotation.column(axis) * n)))
-    };
-    point.share.iter().flat_map(of_pair).collect()
+    let mut seen: Vec<(usize, Vector2<f64>)> = Vec::new();
+    for &(pair, n) in &point.share {
+        for axis in 0..2 {
+            for &(place, sign) in &jumps[pair][axis] {
+                let column = rotation.column(axis) * (n * sign);
+                match seen.iter_mut().find(|(known, _)| *known == place) {
+                    Some((_, sum)) => *sum += column,
+                    None => seen.push((place, column)),
+                }
+            }
+        }
+    }
+    seen
 }
 
 /// Where two elements of a curve meet in a node under less than this, the curve is taken as smooth there: cos 30
@@ -250,8 +260,8 @@ pub mod testing {
             |p: usize| Joint { seam: 0, shape: Shape::Line2, pairs: vec![p, p + 1], ground_cell: 0, body_cell: 0 };
         let joints: Vec<Joint> = (0..laws.len()).map(joint).collect();
         let laws: Vec<(JointLaw, Integration)> = laws.iter().map(|law| (*law, Integration::Lobatto)).collect();
-        let places: Vec<_> = (0..count).map(|p| [Some(2 * p), Some(2 * p + 1)]).collect();
-        Interface::new(&mesh, &pairs, &joints, &laws, &places)
+        let jumps: Vec<_> = (0..count).map(|p| [vec![(2 * p, 1.)], vec![(2 * p + 1, 1.)]]).collect();
+        Interface::new(&mesh, &pairs, &joints, &laws, &jumps)
     }
 
     pub const LAW: JointLaw = JointLaw {

@@ -229,7 +229,7 @@ mod tests {
         let joints: Vec<Joint> = (1..PAIRS).map(joint).collect();
         let law =
             JointLaw { normal_stiffness: 50., tangential_stiffness: 20., friction: Friction::Coulomb(0.3), gap: 0. };
-        let jumps: Vec<_> = (0..PAIRS).map(|p| [Some(2 * p), Some(2 * p + 1)]).collect();
+        let jumps: Vec<_> = (0..PAIRS).map(|p| [vec![(2 * p, 1.)], vec![(2 * p + 1, 1.)]]).collect();
         Interface::new(&mesh, &pairs, &joints, &vec![(law, integration); joints.len()], &jumps)
     }
 

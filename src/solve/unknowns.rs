@@ -5,12 +5,16 @@
 //! large ones, its digits are lost there: so a state carries it beside them.
 
 use super::jump_sides::JumpSides;
+use crate::Result;
 use crate::model::mesh::Mesh;
 use crate::model::split::Pair;
-use crate::number::place;
 use crate::sparse::{Graph, Orders};
-use crate::{Error, Result};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+/// The jump of a pair along an axis as a sum of (place in the vector of jumps, sign). Most pairs have a place of their
+/// own. Where interfaces meet, n copies of a node have n - 1 independent jumps, and the other pairs' are sums of these.
+/// Empty where supports hold both nodes or an interface ends.
+pub type PairJump = Vec<(usize, f64)>;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unknowns {
@@ -20,8 +24,8 @@ pub struct Unknowns {
     pub border: usize,
     /// per node and axis
     numbers: Vec<[Option<usize>; 2]>,
-    /// for each pair and axis its place in the vector of jumps; none where supports hold both nodes
-    pub jumps: Vec<[Option<usize>; 2]>,
+    /// the jump of each pair along each axis
+    pub jumps: Vec<[PairJump; 2]>,
     /// the unknowns that each jump lies between
     pub sides: JumpSides,
     /// the node whose motion an unknown is: for messages
@@ -32,10 +36,8 @@ impl Unknowns {
     /// `fixed` per node and axis; `orders`: those that are known.
     ///
     /// # Errors
-    /// Pairs that form a ring (three bodies with three interfaces in one point), whose jumps depend on each other; or
-    /// more unknowns than [`elimination_order`](crate::sparse::elimination_order) can number.
+    /// More unknowns than [`elimination_order`](crate::sparse::elimination_order) can number.
     pub fn new(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair], orders: &Orders) -> Result<Unknowns> {
-        refuse_rings(mesh, fixed, pairs)?;
         let (inner, at_interfaces) = order_nodes(mesh, fixed, pairs, orders)?;
         let axes_of = |&node: &usize| (0..2).filter(move |&axis| !fixed[node][axis]).map(move |axis| (node, axis));
         let mut numbers = vec![[None; 2]; fixed.len()];
@@ -45,16 +47,8 @@ impl Unknowns {
             nodes.push(node);
         }
         let border = inner.iter().flat_map(axes_of).count();
-        let mut sides = Vec::new();
-        let jump = |pair: &Pair, axis: usize| {
-            let side = [pair.ground, pair.body].map(|node: usize| numbers[node][axis]);
-            (side != [None; 2]).then(|| {
-                sides.push(side);
-                sides.len() - 1
-            })
-        };
-        let jumps = both_axes(pairs, jump);
-        Ok(Unknowns { count: nodes.len(), border, numbers, jumps, sides: JumpSides::new(sides), nodes })
+        let Jumps { of_pairs, sides } = Jumps::new(&numbers, pairs);
+        Ok(Unknowns { count: nodes.len(), border, numbers, jumps: of_pairs, sides: JumpSides::new(sides), nodes })
     }
 
     /// Length of a state's vectors: the unknowns, then the jumps.
@@ -93,11 +87,10 @@ impl Unknowns {
     /// q of other unknowns of the same nodes and pairs [as q], the jumps with all their digits.
     pub fn from_others(&self, others: &Unknowns, q: &[f64]) -> Vec<f64> {
         let mut own = self.from_nodes(&others.at_nodes(q));
-        for (own_jumps, other_jumps) in self.jumps.iter().zip(&others.jumps) {
-            for axis in 0..2 {
-                if let (Some(to), Some(from)) = (own_jumps[axis], other_jumps[axis]) {
-                    own[self.count + to] = q[others.count + from];
-                }
+        for (own_jump, other_jump) in self.jumps.as_flattened().iter().zip(others.jumps.as_flattened()) {
+            if let [(to, sign)] = own_jump[..] {
+                own[self.count + to] =
+                    sign * other_jump.iter().map(|&(from, s)| s * q[others.count + from]).sum::<f64>();
             }
         }
         own
@@ -123,35 +116,70 @@ impl Unknowns {
     }
 }
 
-fn both_axes(pairs: &[Pair], mut of: impl FnMut(&Pair, usize) -> Option<usize>) -> Vec<[Option<usize>; 2]> {
-    pairs.iter().map(|pair| [of(pair, 0), of(pair, 1)]).collect()
+/// The independent jumps, and those of all pairs as sums of them.
+struct Jumps {
+    /// per pair and axis
+    of_pairs: Vec<[PairJump; 2]>,
+    /// unknowns of ground and body of each independent jump, none where a support holds that side
+    sides: Vec<[Option<usize>; 2]>,
 }
 
-/// Errors: a jump that is the sum of others. All held nodes count as one, which does not move.
-fn refuse_rings(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair]) -> Result<()> {
-    let held = fixed.len();
-    for axis in 0..2 {
-        let mut joined_to: Vec<usize> = (0..=held).collect();
-        let end = |joined_to: &[usize], node: usize| {
-            let mut end = if fixed[node][axis] { held } else { node };
-            while joined_to[end] != end {
-                end = joined_to[end];
+impl Jumps {
+    /// `numbers`: the unknowns of each node and axis.
+    ///
+    /// The pairs are the edges of a graph of unknowns, in which all that supports hold is one vertex. Those of a spanning
+    /// forest, the first that are found, are independent; the jump of every other is the sum along its path in the forest.
+    fn new(numbers: &[[Option<usize>; 2]], pairs: &[Pair]) -> Jumps {
+        let mut of_pairs = vec![[PairJump::new(), PairJump::new()]; pairs.len()];
+        let mut forest = Forest::default();
+        let mut sides = Vec::new();
+        for (pair, jumps) in pairs.iter().zip(&mut of_pairs).filter(|(pair, _)| pair.is_open()) {
+            for axis in 0..2 {
+                let [ground, body] = [pair.ground, pair.body].map(|node| numbers[node][axis]);
+                jumps[axis] = forest.path(ground, body).unwrap_or_else(|| {
+                    forest.add(ground, body, sides.len());
+                    sides.push([ground, body]);
+                    vec![(sides.len() - 1, 1.)]
+                });
             }
-            end
-        };
-        for pair in pairs.iter().filter(|p| !fixed[p.ground][axis] || !fixed[p.body][axis]) {
-            let (ground, body) = (end(&joined_to, pair.ground), end(&joined_to, pair.body));
-            if ground == body {
-                let place = place(mesh.points[pair.ground]);
-                return Err(Error::input(format!(
-                    "the interfaces at {place} close a ring of node pairs, or a support holds both ends of a \
-                     chain of them: let at most one body meet the ground in each point"
-                )));
-            }
-            joined_to[ground.min(body)] = ground.max(body);
         }
+        Jumps { of_pairs, sides }
     }
-    Ok(())
+}
+
+/// Jumps between unknowns; none is what supports hold.
+#[derive(Default)]
+struct Forest(HashMap<Option<usize>, Vec<Branch>>);
+
+/// A jump from one unknown to another: u(from) - u(to) = sign * jump.
+#[derive(Clone, Copy)]
+struct Branch {
+    to: Option<usize>,
+    jump: usize,
+    sign: f64,
+}
+
+impl Forest {
+    fn add(&mut self, ground: Option<usize>, body: Option<usize>, jump: usize) {
+        self.0.entry(ground).or_default().push(Branch { to: body, jump, sign: 1. });
+        self.0.entry(body).or_default().push(Branch { to: ground, jump, sign: -1. });
+    }
+
+    /// The jumps whose sum is u(ground) - u(body); none if no path leads from one to the other.
+    fn path(&self, ground: Option<usize>, body: Option<usize>) -> Option<PairJump> {
+        let mut seen = HashSet::from([ground]);
+        let mut ends = vec![(ground, PairJump::new())];
+        while let Some((end, path)) = ends.pop() {
+            if end == body {
+                return Some(path);
+            }
+            for branch in self.0.get(&end).into_iter().flatten().filter(|branch| seen.insert(branch.to)) {
+                let longer = path.iter().copied().chain([(branch.jump, branch.sign)]).collect();
+                ends.push((branch.to, longer));
+            }
+        }
+        None
+    }
 }
 
 /// Nodes that can move, in elimination order: by nested dissection, and then those of the interfaces.
@@ -162,7 +190,8 @@ fn order_nodes(mesh: &Mesh, fixed: &[[bool; 2]], pairs: &[Pair], orders: &Orders
     let faces = mesh.cells.iter().filter(|cell| cell.shape.dimension() == 2);
     let cliques: Vec<Vec<usize>> = faces.map(|face| face.nodes.iter().filter_map(|&n| vertex[n]).collect()).collect();
     let graph = Graph::from_cliques(free.len(), cliques.iter().map(Vec::as_slice));
-    let last: BTreeSet<usize> = pairs.iter().flat_map(|p| [vertex[p.ground], vertex[p.body]]).flatten().collect();
+    let open = pairs.iter().filter(|pair| pair.is_open());
+    let last: BTreeSet<usize> = open.flat_map(|p| [vertex[p.ground], vertex[p.body]]).flatten().collect();
     let last: Vec<usize> = last.into_iter().collect();
     let mut order: Vec<usize> = orders.of(&graph, &last)?.into_iter().map(|v| free[v]).collect();
     let at_interfaces = order.split_off(order.len() - last.len());

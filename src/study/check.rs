@@ -83,7 +83,8 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
     }
     for (_, axes) in case.supports.iter().filter(|(name, _)| meant(name)) {
         let names: Vec<&str> = axes.iter().map(|a| ["x", "y"][a.index()]).collect();
-        roles.push(format!("support: u_{} = 0", names.join(" = u_")));
+        let both = if on_interface(group, model) { ", on both sides of the interface" } else { "" };
+        roles.push(format!("support: u_{} = 0{both}", names.join(" = u_")));
     }
     if case.initial.keys().any(|name| meant(name)) {
         roles.push("initial motion".into());
@@ -93,9 +94,13 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
     }
     roles.extend(model.loads.iter().filter(|load| is(load.target.dimension(), &load.group)).map(loads::role));
     if model.probes.iter().any(|p| is(0, &p.name)) {
-        roles.push("probe".into());
+        roles.push(if on_interface(group, model) { "probe, on the body's side" } else { "probe" }.into());
     }
     if roles.is_empty() { "not used".into() } else { roles.join("; ") }
+}
+
+fn on_interface(group: &Group, model: &Model) -> bool {
+    model.mesh.ground_side(group).is_some()
 }
 
 fn boundary_role(kind: Boundary, analysis: Analysis) -> &'static str {

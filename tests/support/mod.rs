@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // each test target uses its own part
 
+pub mod junction;
+
 use coralpipe::model::case::Case;
 use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::msh;
@@ -21,7 +23,7 @@ use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A mesh as it is drawn by a test; the program reads it as MSH 2.2 text.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Drawing {
     nodes: Vec<[f64; 2]>,
     /// dimension and name; the tag of a group is its place here, from 1
@@ -61,6 +63,23 @@ impl Drawing {
             self.groups.len() - 1
         });
         self.cells.push((kind, known + 1, nodes.to_vec()));
+    }
+
+    /// With another name for a group.
+    pub fn renamed(&self, old: &str, new: &str) -> Drawing {
+        let groups = self.groups.iter().map(|(d, name)| (*d, if name == old { new.into() } else { name.clone() }));
+        Drawing { groups: groups.collect(), ..self.clone() }
+    }
+
+    /// With nodes and cells numbered backwards.
+    pub fn backwards(&self) -> Drawing {
+        let last = self.nodes.len() - 1;
+        let cells = self
+            .cells
+            .iter()
+            .rev()
+            .map(|(kind, group, nodes)| (*kind, *group, nodes.iter().map(|n| last - n).collect()));
+        Drawing { nodes: self.nodes.iter().rev().copied().collect(), cells: cells.collect(), ..self.clone() }
     }
 
     pub fn text(&self) -> String {

@@ -11,7 +11,7 @@ use crate::model::units::{JointStiffness, Length};
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object")]
 pub struct Interface {
-    /// Face group on the inner side: it gets the copied nodes; the other side is the ground.
+    /// Group of surfaces on the side that the normal leaves; the other side is the ground.
     pub body: String,
     /// Thickness t [m] of the thin layer of ground, greater than 0: the stiffness is E_oed/t (normal) and G/t (tangential). Default: 1 cm.
     #[serde(default = "one_centimetre", deserialize_with = "range::positive")]

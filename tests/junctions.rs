@@ -1,0 +1,223 @@
+//! Interfaces that meet, cross and end, and what acts on their sides.
+
+mod support;
+
+use coralpipe::model::case::Newton;
+use coralpipe::model::mesh::{Mesh, Shape};
+use coralpipe::model::resolve::Model;
+use coralpipe::solve::law::Scheme;
+use coralpipe::solve::step::{Step, Stepper};
+use coralpipe::solve::system::{State, System};
+use coralpipe::sparse::multiply;
+use serde_json::{Value, json};
+use support::junction::{box_on_a_bed, four_blocks};
+use support::{Drawing, node_at, peak};
+
+/// Ground held at its base and sides, pressed from above with 100 kPa in statics.
+fn case(interfaces: Value) -> Value {
+    let ground = |young: f64| json!({ "young": young, "poisson": 0.3, "density": 2000, "friction": 0.3 });
+    json!({
+        "analysis": "static",
+        "materials": { "layer_1": ground(100e6), "layer_2": ground(50e6), "pipe_left": ground(1e9) },
+        "interfaces": interfaces,
+        "supports": { "base": ["x", "y"], "side_left": ["x"], "side_right": ["x"] },
+        "loads": { "surface": { "pressure": { "law": "step", "peak": "100 kPa" } } },
+        "time": { "step": 1, "end": 1 },
+    })
+}
+
+/// Joints 1e6 times as stiff as 1 m of the ground, which do not slip.
+fn glued(body: &str) -> Value {
+    json!({ "body": body, "normal_stiffness": 1e14, "tangential_stiffness": 1e14, "friction": 10 })
+}
+
+/// The equilibrium under the loads at the end of the first step.
+fn equilibrium(model: &Model, system: &System) -> State {
+    let options = Newton { tolerance: 1e-12, ..Newton::default() };
+    let mut stepper = Stepper::new(system, &system.symbolic(), Scheme::Static, 1., options).unwrap();
+    let rest = Step::start(State::at_rest(system));
+    assert!(!model.joints.is_empty());
+    stepper.step(system, &rest).unwrap().into_state()
+}
+
+/// Displacements of the nodes of the opened mesh [m].
+fn displacements(json: &Value, mesh: &Mesh) -> (Model, Vec<[f64; 2]>) {
+    let model = support::model(json, mesh);
+    let system = System::new(&model).unwrap();
+    let state = equilibrium(&model, &system);
+    (model, system.unknowns.at_nodes(&state.q))
+}
+
+fn merged(json: &Value, mesh: &Mesh) -> Vec<[f64; 2]> {
+    let model = Model::new(&support::case(json), mesh, true).unwrap();
+    let system = System::new(&model).unwrap();
+    let mut u = system.load(1.);
+    system.symbolic().solve_once(&system.stiffness, &mut u).unwrap();
+    system.unknowns.at_nodes(&u)
+}
+
+/// The joints yield by 1e-6 of what 1 m of ground does, a tenth of that of the 6 m x 4 m of ground.
+#[test]
+fn stiff_joints_through_t_and_x_junctions_are_the_merged_mesh() {
+    let t = (box_on_a_bed(), json!({ "interface_left": glued("pipe_left"), "bed": glued("layer_2") }));
+    let x = (four_blocks(), json!({ "upright": glued("left"), "level": glued("layer_2") }));
+    for (drawing, interfaces) in [t, x] {
+        let (mesh, json) = (drawing.mesh(), case(interfaces));
+        let (model, opened) = displacements(&json, &mesh);
+        let merged = merged(&json, &mesh);
+        assert!(opened.len() > merged.len());
+        let at = |node: usize| merged[node_at(&mesh, model.mesh.points[node])];
+        let largest = peak(merged.as_flattened());
+        for (node, u) in opened.iter().enumerate() {
+            let off = (0..2).map(|k| (u[k] - at(node)[k]).abs()).fold(0., f64::max);
+            assert!(off < 1e-6 * largest, "{:e} of the peak at {:?}", off / largest, model.mesh.points[node]);
+        }
+    }
+}
+
+/// K u + N'r = f: round-off of sums of some ten forces of 50 kN.
+#[test]
+fn forces_balance_at_every_copy_of_a_triple_point() {
+    let mesh = box_on_a_bed().mesh();
+    let json = case(json!({ "interface_left": { "body": "pipe_left" }, "bed": { "body": "layer_2" } }));
+    let model = support::model(&json, &mesh);
+    let system = System::new(&model).unwrap();
+    let state = equilibrium(&model, &system);
+    let slipping = state.joints.iter().filter(|joint| joint.status.is_slipping()).count();
+    assert!(slipping > 0, "the box is stiffer than the ground, which slides along it");
+    let mut forces = multiply(&system.stiffness, system.displacements(&state.q));
+    let joints = system.interface.forces(state.joints.iter().map(|joint| joint.traction));
+    system.unknowns.sides.add_forces(&mut forces, 1., &joints);
+    let load = system.load(1.);
+    let triple: Vec<usize> =
+        (0..model.mesh.points.len()).filter(|&n| [[2.5, 2.], [3.5, 2.]].contains(&model.mesh.points[n])).collect();
+    assert_eq!(triple.len(), 6);
+    for node in triple {
+        for axis in 0..2 {
+            let i = system.unknowns.of(node, axis).unwrap();
+            let (carried, off) = (joints.iter().map(|f| f.abs()).fold(0., f64::max), (forces[i] - load[i]).abs());
+            assert!(off < 1e-12 * carried, "{:e} of {carried:e} N", off / carried);
+        }
+    }
+}
+
+/// Names decide which interface is opened first, node numbers which copy is numbered first: neither counts.
+#[test]
+fn neither_names_nor_node_numbers_change_the_answer() {
+    let names = |bed: &str| json!({ "interface_left": { "body": "pipe_left" }, bed: { "body": "layer_2" } });
+    let drawing = box_on_a_bed();
+    let (first, second) = (drawing.mesh(), drawing.renamed("bed", "z_bed").backwards().mesh());
+    let (model, u) = displacements(&case(names("bed")), &first);
+    let (other_model, other_u) = displacements(&case(names("z_bed")), &second);
+    let largest = peak(u.as_flattened());
+    // displacements at each place, sorted since copies are numbered otherwise
+    let at = |model: &Model, u: &[[f64; 2]], place: [f64; 2], axis: usize| {
+        let here = (0..u.len()).filter(|&n| model.mesh.points[n] == place);
+        let mut values: Vec<f64> = here.map(|n| u[n][axis]).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    for &place in &model.mesh.points {
+        for axis in 0..2 {
+            let [a, b] = [at(&model, &u, place, axis), at(&other_model, &other_u, place, axis)];
+            assert_eq!(a.len(), b.len());
+            // the tolerance of Newton's residual, 1e-12, times the condition of a block on a smooth bed
+            assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9 * largest), "{place:?}: {a:?} {b:?}");
+        }
+    }
+}
+
+/// A crack from (1, 1) to (2, 1) in a plate 3 m x 2 m: two nodes inside it, one at each tip.
+#[test]
+fn an_interface_may_end_inside_the_solid() {
+    let mut drawing = plate(6, 4, |_, j| if j < 2 { "layer_1" } else { "layer_2" });
+    for i in 2..4 {
+        let row = |i: usize| 2 * 7 + i;
+        drawing.cell("crack", Shape::Line2, &[row(i), row(i + 1)]);
+    }
+    let json = case(json!({ "crack": { "body": "layer_2" } }));
+    let model = support::model(&json, &drawing.mesh());
+    let copies = |x: f64| model.mesh.points.iter().filter(|p| **p == [x, 1.]).count();
+    assert_eq!([1., 1.5, 2.].map(copies), [1, 2, 1]);
+    let system = System::new(&model).unwrap();
+    assert_eq!(system.unknowns.sides.count(), 2, "one pair along two axes");
+}
+
+/// 3 m x 2 m of squares of 0.5 m in `across` columns and `up` rows, held and loaded as in [`case`].
+fn plate(across: usize, up: usize, group: impl Fn(usize, usize) -> &'static str) -> Drawing {
+    let mut drawing = Drawing::default();
+    let node = |i: usize, j: usize| j * (across + 1) + i;
+    (0..=up).for_each(|j| (0..=across).for_each(|i| _ = drawing.node([i as f64 / 2., j as f64 / 2.])));
+    for j in 0..up {
+        for i in 0..across {
+            let nodes = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+            drawing.cell(group(i, j), Shape::Quad4, &nodes);
+        }
+        drawing.cell("side_left", Shape::Line2, &[node(0, j), node(0, j + 1)]);
+        drawing.cell("side_right", Shape::Line2, &[node(across, j), node(across, j + 1)]);
+    }
+    for i in 0..across {
+        drawing.cell("base", Shape::Line2, &[node(i, 0), node(i + 1, 0)]);
+        drawing.cell("surface", Shape::Line2, &[node(i, up), node(i + 1, up)]);
+    }
+    drawing
+}
+
+/// A block on another, the joint between them at y = 1 m called "joint".
+fn two_blocks() -> Mesh {
+    let mut drawing = plate(2, 4, |_, j| if j < 2 { "layer_1" } else { "layer_2" });
+    (0..2).for_each(|i| drawing.cell("joint", Shape::Line2, &[6 + i, 7 + i]));
+    drawing.mesh()
+}
+
+#[test]
+fn a_support_on_an_interface_holds_both_sides_unless_it_names_one() {
+    let held = |name: &str| {
+        let mut json = case(json!({ "joint": { "body": "layer_2" } }));
+        json["supports"] = json!({ "base": ["x", "y"], name: ["x", "y"] });
+        let model = support::model(&json, &two_blocks());
+        let rows = [0, 1].map(|of_body: usize| {
+            let row = model.pairs.iter().map(|pair| [pair.ground, pair.body][of_body]);
+            row.clone().filter(|&n| model.fixed[n] == [true; 2]).count()
+        });
+        rows
+    };
+    assert_eq!(held("joint"), [3, 3]);
+    assert_eq!(held("joint@ground"), [3, 0]);
+    assert_eq!(held("joint@body"), [0, 3]);
+}
+
+/// 100 kPa on the upper block and 40 kPa in the joint: the joint carries 60 kPa, and is pressed together by that over
+/// its stiffness. Exact but for round-off: stress and strain are uniform.
+#[test]
+fn a_pressure_on_an_interface_acts_in_the_joint_on_both_sides() {
+    let mut json = case(json!({ "joint": { "body": "layer_2", "normal_stiffness": 1e9 } }));
+    json["loads"]["joint"] = json!({ "pressure": { "law": "step", "peak": "40 kPa" } });
+    let model = support::model(&json, &two_blocks());
+    let system = System::new(&model).unwrap();
+    let state = equilibrium(&model, &system);
+    for (point, joint) in system.interface.points.iter().zip(&state.joints) {
+        assert!((joint.traction[1] + 60e3).abs() < 1e-6 * 60e3, "{}", joint.traction[1]);
+        let closed = system.interface.local(point, system.jumps(&state.q))[1];
+        assert!((closed + 60e3 / 1e9).abs() < 1e-6 * 6e-5, "{closed}");
+    }
+}
+
+#[test]
+fn a_traction_on_an_interface_must_name_its_side() {
+    let mut json = case(json!({ "joint": { "body": "layer_2" } }));
+    json["loads"] = json!({ "joint": { "traction": { "law": "step", "peak": "1 kPa", "direction": [1, 0] } } });
+    let sentence = Model::new(&support::case(&json), &two_blocks(), false).unwrap_err().to_string();
+    assert!(sentence.contains("\"joint@body\" or \"joint@ground\""), "{sentence}");
+}
+
+#[test]
+fn a_line_in_two_interfaces_is_refused() {
+    let mut drawing = plate(2, 4, |_, j| if j < 2 { "layer_1" } else { "layer_2" });
+    for name in ["first", "second"] {
+        (0..2).for_each(|i| drawing.cell(name, Shape::Line2, &[6 + i, 7 + i]));
+    }
+    let json = case(json!({ "first": { "body": "layer_2" }, "second": { "body": "layer_2" } }));
+    let sentence = Model::new(&support::case(&json), &drawing.mesh(), false).unwrap_err().to_string();
+    assert!(sentence.contains("\"first\" and \"second\"") && sentence.contains("(0.2500, 1.0000)"), "{sentence}");
+}
