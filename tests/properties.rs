@@ -114,12 +114,14 @@ proptest! {
                 prop_assert!(unknowns.of(node, axis).is_none_or(|i| (i >= unknowns.border) == paired));
             }
             for (pair, jumps) in pairs.iter().zip(&unknowns.jumps) {
-                let jump = jumps[axis].map(|place| q[unknowns.count + place]);
-                let exact = (!held[pair.ground][axis] || !held[pair.body][axis])
-                    .then_some(u[pair.ground][axis] - u[pair.body][axis]);
-                prop_assert_eq!(jump, exact);
+                let moves = !held[pair.ground][axis] || !held[pair.body][axis];
+                prop_assert_eq!(jumps[axis].len(), usize::from(moves), "no interfaces meet here");
+                let exact = u[pair.ground][axis] - u[pair.body][axis];
                 let of_sides = |place| unknowns.sides.of(place).map(|(i, sign)| sign * q[i]).sum::<f64>();
-                prop_assert_eq!(jumps[axis].map(of_sides), exact);
+                for &(place, sign) in &jumps[axis] {
+                    prop_assert_eq!(sign * q[unknowns.count + place], exact);
+                    prop_assert_eq!(sign * of_sides(place), exact);
+                }
             }
         }
     }
