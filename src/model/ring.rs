@@ -2,7 +2,7 @@
 //! the same radii, meshed in sectors between neighbouring rays.
 
 use super::mesh::{Cell, Mesh};
-use crate::number::short_to;
+use crate::number::{place, short_to};
 use nalgebra::{DMatrix, DVector};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
@@ -61,10 +61,9 @@ impl fmt::Display for NoRing {
                 length(*most)
             ),
             NoRing::Eccentric(distance) => write!(f, "its bore is eccentric by {} m", length(*distance)),
-            NoRing::Unstructured([x, y]) => write!(
-                f,
-                "its elements do not lie in layers between common rays from the centre, as at ({x:.4}, {y:.4}) m"
-            ),
+            NoRing::Unstructured(at) => {
+                write!(f, "its elements do not lie in layers between common rays from the centre, as at {}", place(*at))
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::prepare::Prepared;
 use crate::model::case::Analysis;
-use crate::number::short_to;
+use crate::number::{place, short_to};
 use crate::solve::assembly::nodal_forces;
 use crate::solve::system::is_finite;
 use crate::{Error, Result};
@@ -39,9 +39,9 @@ pub fn refuse_overflow(prepared: &Prepared) -> Result<()> {
 }
 
 fn too_large(prepared: &Prepared, whose: &str, node: usize, what: &str, size: f64) -> Error {
-    let [x, y] = prepared.model.mesh.points[node];
+    let at = place(prepared.model.mesh.points[node]);
     Error::input(format!(
-        "{whose} gives the node at ({x:.4}, {y:.4}) m a {what} of {}, too large for a computer to calculate with: check its \
+        "{whose} gives the node at {at} a {what} of {}, too large for a computer to calculate with: check its \
          values, densities and stiffnesses",
         short_to(3, size)
     ))
