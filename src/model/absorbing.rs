@@ -105,7 +105,7 @@ fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Lo
                 ends_at(line, lines).map(|(loaded, corner)| (inwards(loaded), corner)).collect()
             }
             Target::Traction { lines, direction } => {
-                let across = ends_at(line, lines).filter(|(loaded, _)| !goes_on(along, loaded.tangent(mesh)));
+                let across = ends_at(line, lines).filter(|(loaded, _)| !is_continuation(along, loaded.tangent(mesh)));
                 across.map(|(_, corner)| (*direction, corner)).collect()
             }
             Target::BodyForce { cells, direction } if cells.contains(&face) && along[1].abs() > along[0].abs() => {
@@ -130,7 +130,7 @@ fn refuse_drain(mesh: &Mesh, name: &str, line: &Border, face: usize, loads: &[Lo
 }
 
 /// Two lines that meet turn by less than 45 degrees.
-fn goes_on(along: [f64; 2], other: [f64; 2]) -> bool {
+fn is_continuation(along: [f64; 2], other: [f64; 2]) -> bool {
     (along[0] * other[0] + along[1] * other[1]).abs() > (along[0] * other[1] - along[1] * other[0]).abs()
 }
 

@@ -29,7 +29,7 @@ pub fn refuse_loose(model: &Model) -> Result<()> {
 
 /// In a dynamic calculation: a sentence for each part that nothing holds beside others that are held. A part that is
 /// given a velocity is meant to fly.
-pub fn afloat(model: &Model) -> Vec<String> {
+pub fn unheld_parts(model: &Model) -> Vec<String> {
     if model.analysis == Analysis::Static || model.gravity != 0. {
         return vec![];
     }

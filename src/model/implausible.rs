@@ -1,7 +1,7 @@
 //! Values that are possible but out of reason, as after a slip of units: a warning for each.
 //!
-//! A value far from all that is built, dug in or blasted is rarely meant. The ranges are wide: what lies outside is off by
-//! a factor of ten or more from the nearest common material or load.
+//! A value far from all that is built, dug in or blasted is rarely meant. The ranges are wide: what lies outside is rarely
+//! a real material or load. Light fills such as geofoam are an exception, and are warned of.
 
 use super::case::{Analysis, Case, MeshUnit};
 use super::mesh::{Cell, Mesh};
@@ -111,7 +111,7 @@ fn of_gravity(gravity: f64) -> Option<String> {
 }
 
 fn of_load(load: &Load, analysis: Analysis) -> Vec<String> {
-    let (peak, duration) = (peak(&load.pulse), duration(&load.pulse));
+    let (peak, duration) = (load.pulse.largest(), duration(&load.pulse));
     let mut warnings = Vec::new();
     if matches!(load.target, Target::Pressure { .. } | Target::Traction { .. }) && peak > MOST_PRESSURE {
         warnings.push(format!(
@@ -130,19 +130,6 @@ fn of_load(load: &Load, analysis: Analysis) -> Vec<String> {
         ));
     }
     warnings
-}
-
-/// Largest magnitude.
-fn peak(pulse: &Pulse) -> f64 {
-    match pulse {
-        Pulse::Linear { peak, .. }
-        | Pulse::Step { peak }
-        | Pulse::Ramp { peak, .. }
-        | Pulse::HalfSine { peak, .. }
-        | Pulse::Friedlander { peak, .. } => peak.abs(),
-        Pulse::Table { values, .. } => values.iter().fold(0., |most: f64, v| most.max(v.abs())),
-        Pulse::Delayed { law, .. } => peak(law),
-    }
 }
 
 /// Of the laws that have one key for it [s]; the times of a table may be those of an earthquake.

@@ -6,7 +6,8 @@ use super::mesh::Shape;
 use super::resolve::Model;
 use std::collections::BTreeSet;
 
-/// Share of a settlement below which locking is one error among others. The other errors of such meshes are as large.
+/// Share of a settlement from which a warning is given: a choice. Below it locking and the other errors of such meshes, 1 to
+/// 2 %, are of one size.
 const TOLERATED: f64 = 0.05;
 
 /// Share of the settlement under a strip footing that T3 and standard Q4 lose to locking, on a mesh with five elements

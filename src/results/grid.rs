@@ -34,7 +34,7 @@ const SIGNS: &str = "signs: tension and opening positive; normal from body to gr
 const ALL_TOTAL: &str = "totals: every value is counted from the state without loads";
 const FROM_GRAVITY: &str = "totals: displacement is counted from the equilibrium under gravity; stress, strain, tractions, gap, \
                             slip and jump are totals, with gravity in them";
-const MODE: &str = "mode shape: displacement u is scaled to u'M u = 1 kg, all else belongs to it";
+const MODE: &str = "mode shape: displacement u is scaled to u'M u = 1 kg m2 per metre of depth; stresses and interface values belong to it";
 
 impl Grid {
     /// Of a run.
@@ -140,12 +140,16 @@ fn geometry(model: &Model, sites: &Sites) -> vtu::Base {
 /// an entry of the field data under its name with its number and the dimension 2, as meshio keeps physical names.
 fn add_materials(base: &mut vtu::Base, model: &Model) {
     let faces = model.faces().map(|(cell, _)| model.material_of[cell].map_or(0, |m| m as i32 + 1));
-    let legend = |(i, (name, _)): (usize, &(String, _))| format!("{} {name}", i + 1);
-    let legend: Vec<String> = model.materials.iter().enumerate().map(legend).collect();
+    // the case may write "surface:NAME"
+    let name = |(material, _): &'_ (String, _)| {
+        model.mesh.group_of(material, 2, "material").map_or_else(|_| material.clone(), |group| group.name.clone())
+    };
+    let names: Vec<String> = model.materials.iter().map(name).collect();
+    let legend: Vec<String> = names.iter().enumerate().map(|(i, name)| format!("{} {name}", i + 1)).collect();
     let numbers: Vec<i32> = faces.chain(model.joints.iter().map(|_| 0)).collect();
     base.cell(Attribute::scalars("material", 1), &legend.join("; "), &numbers);
-    for (i, (name, _)) in model.materials.iter().enumerate() {
-        base.field(name, &[i as i32 + 1, 2]);
+    for (i, name) in names.into_iter().enumerate() {
+        base.field(&name, &[i as i32 + 1, 2]);
     }
 }
 

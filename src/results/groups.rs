@@ -26,7 +26,9 @@ impl Groups {
                 mark(&mut groups.nodes, &group.name, nodes, members);
             }
         }
-        for (seam, name) in model.seams.iter().map(|seam| &seam.curve).enumerate() {
+        for (seam, curve) in model.seams.iter().map(|seam| &seam.curve).enumerate() {
+            // the case may write "curve:NAME"
+            let name = model.mesh.group_of(curve, 1, "interface").map_or(curve, |group| &group.name);
             let lines = model.joints.iter().enumerate().filter(|(_, joint)| joint.seam == seam);
             mark(&mut groups.cells, name, cells, lines.map(|(number, _)| place.len() + number));
         }

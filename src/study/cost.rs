@@ -3,7 +3,7 @@
 //! A time in the wrong unit makes a run a thousand times as long, and its results would fill the disk.
 
 use crate::model::case::Case;
-use crate::model::mesh::Mesh;
+use crate::model::mesh::{Group, Mesh};
 use crate::number::{seconds, short_to};
 use crate::{Error, Result};
 use std::path::Path;
@@ -62,8 +62,8 @@ impl Cost {
         let count = |span: f64| (span / case.time.step.0).round().max(1.);
         let steps = count(case.time.end.0);
         let moments = 1. + (steps / count(case.frame_interval())).ceil();
-        let joints: usize =
-            mesh.groups.iter().filter(|g| case.interfaces.contains_key(&g.name)).map(|g| g.cells.len()).sum();
+        let is_interface = |g: &Group| g.dimension == 1 && case.interfaces.keys().any(|name| g.is_called(name));
+        let joints: usize = mesh.groups.iter().filter(|g| is_interface(g)).map(|g| g.cells.len()).sum();
         let faces = mesh.cells.iter().filter(|c| c.shape.dimension() == 2).count();
         let frame = FORM + PLACE * (mesh.points.len() + faces + joints) as f64;
         let moment = RING * joints as f64 + if frames { frame } else { 0. };

@@ -1,7 +1,7 @@
 //! Which files a Gmsh script reads, as far as its words tell.
 //!
-//! Gmsh itself reports what it includes and merges. Its words matter for the rest: none of them can be composed from
-//! texts, so a script without the words below reads no file that Gmsh does not report.
+//! Gmsh reports what it includes and merges. What else it reads needs one of the words below, and a script cannot compose
+//! a word from strings: so a script without them reads no file that Gmsh does not report.
 
 use super::words::{Word, words};
 

@@ -174,12 +174,13 @@ fn not_writable(place: &Path, e: &std::io::Error) -> Error {
     let place = if place.as_os_str().is_empty() { Path::new(".") } else { place };
     if is_full(e) {
         return Error::input(format!(
-            "the disk is full: the mesh does not fit into {} ({e}); make room there, or run in a folder on another disk",
+            "the disk is full: the mesh does not fit into {} ({e}); free some space there, or run in a folder on another disk",
             place.display()
         ));
     }
     Error::input(format!(
-        "{} cannot be written to: {e}; meshes lie under the current folder: run in one that can be written, or give a mesh by          --mesh FILE.msh",
+        "{} cannot be written to: {e}; meshes lie under the current folder: run in one that can be written, or give a mesh by \
+         --mesh FILE.msh",
         place.display()
     ))
 }

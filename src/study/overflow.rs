@@ -12,8 +12,8 @@ use crate::{Error, Result};
 pub fn refuse_overflow(prepared: &Prepared) -> Result<()> {
     let (model, system) = (&prepared.model, &prepared.system);
     let (matrix, what) = match model.analysis {
-        Analysis::Dynamic => (&system.mass, "acceleration (m/s^2)"),
-        Analysis::Static => (&system.stiffness, "displacement (m)"),
+        Analysis::Dynamic => (&system.mass, "an acceleration [m/s^2]"),
+        Analysis::Static => (&system.stiffness, "a displacement [m]"),
     };
     let end = model.time.step * model.time.steps as f64;
     for load in model.loads.iter().filter(|load| load.pulse.start() <= end) {
@@ -41,7 +41,7 @@ pub fn refuse_overflow(prepared: &Prepared) -> Result<()> {
 fn too_large(prepared: &Prepared, whose: &str, node: usize, what: &str, size: f64) -> Error {
     let at = place(prepared.model.mesh.points[node]);
     Error::input(format!(
-        "{whose} gives the node at {at} a {what} of {}, too large for a computer to calculate with: check its \
+        "{whose} gives the node at {at} {what} of {}, too large for a computer to calculate with: check its \
          values, densities and stiffnesses",
         short_to(3, size)
     ))

@@ -10,7 +10,7 @@ use super::screen::{Screen, tell};
 use super::unsettled;
 use crate::escape::one_line;
 use crate::model::case::{Analysis, Case};
-use crate::model::hold::{afloat, refuse_loose};
+use crate::model::hold::{refuse_loose, unheld_parts};
 use crate::model::idle::{excitation, idle};
 use crate::model::implausible::implausible;
 use crate::model::initial::Initial;
@@ -115,7 +115,7 @@ pub(super) fn model(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openi
 fn structure(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openings) -> Result<Model> {
     let mut model = Model::opened(case, &meshed.mesh, bonded, openings)?;
     model.warnings.extend(idle(case, &model));
-    model.warnings.extend(afloat(&model));
+    model.warnings.extend(unheld_parts(&model));
     model.warnings.extend(locking::warnings(&model));
     model.warnings.extend(implausible(case, &model));
     model.warnings.extend(meshed.warnings.iter().cloned());

@@ -51,6 +51,10 @@ fn text(head: &[u8]) -> Option<Kind> {
         return ends_in_cr.then_some(("text whose lines end in a carriage return alone", "save it with line feeds"));
     }
     let whole = String::from_utf8_lossy(head).to_lowercase();
+    // text may stand before the first section
+    if whole.lines().any(|line| line.trim_start().starts_with("$meshformat")) && !whole.starts_with('<') {
+        return None;
+    }
     let line = whole.lines().next().unwrap_or_default().trim_end();
     let begins = |marks: &[&str]| marks.iter().any(|mark| line.starts_with(mark));
     let has = |marks: &[&str]| marks.iter().any(|mark| whole.contains(mark));
