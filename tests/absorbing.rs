@@ -22,7 +22,7 @@ fn ground(shape: Shape, xs: &[f64], ys: &[f64]) -> Mesh {
     ground_on(|_| "base", shape, xs, ys)
 }
 
-/// The same on a base whose columns lie on curves of the given names.
+/// Such ground on a base whose columns lie on curves of the given names.
 fn ground_on(base: impl Fn(usize) -> &'static str, shape: Shape, xs: &[f64], ys: &[f64]) -> Mesh {
     let mut drawing = Drawing::default();
     let second_order = matches!(shape, Shape::Quad8 | Shape::Tri6);
@@ -829,7 +829,7 @@ fn a_load_on_a_viscous_base_sends_a_plane_wave_in_whatever_the_number_of_element
     }
 }
 
-/// The same wave into a base of two curves, each with its own boundary and load; and a base that is pushed over a part of it.
+/// A half sine of shear or pressure into a base of two curves, each with its own boundary and load; and a base that is pushed over a part of it.
 #[test]
 fn a_viscous_base_may_be_made_of_several_curves_and_be_loaded_in_part() {
     let ys: Vec<f64> = (-10..=0).map(f64::from).collect();
@@ -843,6 +843,7 @@ fn a_viscous_base_may_be_made_of_several_curves_and_be_loaded_in_part() {
         let (rows, _) = motion(&json, &mesh, Rayleigh::default());
         let impulse_over_rho_c = 20. * 0.1 * 2. / PI / (1855. * (1e7 / 2.4 / 1855f64).sqrt());
         let ends = &rows.last().unwrap()[..mesh.points.len()];
+        // 1e-3: the trapezium rule over 50 steps of a half sine misses 3.3e-4, the rest is what short waves leave
         assert!(ends.iter().all(|u| (u[0] / impulse_over_rho_c - 1.).abs() < 1e-3), "{shape:?}");
 
         json["loads"] = json!({ "base_1": push });

@@ -567,11 +567,11 @@ fn a_part_with_air_round_it_is_reported_to_float_unless_it_is_meant_to_fly() {
         }
         case
     };
-    let afloat = |case: Value| coralpipe::model::hold::afloat(&support::model(&case, &sketch.mesh()));
-    let told = afloat(case(json!({})));
+    let unheld = |case: Value| coralpipe::model::hold::unheld_parts(&support::model(&case, &sketch.mesh()));
+    let told = unheld(case(json!({})));
     assert!(told.len() == 1 && told[0].starts_with("nothing holds \"pipe\" round"), "{told:?}");
     assert!(told[0].contains("0 Hz") && told[0].contains("an interface"), "{told:?}");
-    assert_eq!(afloat(case(json!({ "initial": { "pipe": { "velocity": [1, 0] } } }))), [""; 0]);
+    assert_eq!(unheld(case(json!({ "initial": { "pipe": { "velocity": [1, 0] } } }))), [""; 0]);
     // A mesh that nothing holds at all is meant to be free.
-    assert_eq!(afloat(case(json!({ "supports": {} }))), [""; 0]);
+    assert_eq!(unheld(case(json!({ "supports": {} }))), [""; 0]);
 }

@@ -287,7 +287,9 @@ fn try_all(fault: Fault, every: usize) {
     for (i, scene) in scenes.into_iter().enumerate() {
         let name = scene.name;
         let strikes = Trial::new(scene, fault).run(1 + i % every, every);
-        assert!(strikes >= 10 / every, "{name}: {strikes}");
+        // runs have 65 to 109 operations, a sweep 200 to 290, modes some 20: a shim that misses most of them is noticed
+        let least = if ["modes", "mesh"].contains(&name) { 10 } else { 50 };
+        assert!(strikes * every >= least, "{name}: {strikes} of every {every}-th operation");
     }
 }
 

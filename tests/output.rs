@@ -389,8 +389,8 @@ fn vectors_on_straight_joints_are_their_scalars_turned_and_the_faces_parting() {
     assert!(largest[0] > 1e-8 && largest[1] > 1e-8 && largest[2] > 1e3, "nothing opens, slips or drags: {largest:?}");
 }
 
-/// A free pipe under pressure in its bore: Lame's hoop stress is a principal stress, tension, the radial one is the
-/// other, compression, at every element's centre; sigma_theta + sigma_r is constant. Elements outside have none.
+/// A pipe in the ground under pressure in its bore: hoop stress is tension, radial stress compression, both are those of
+/// the stress tensor turned to the element's place, and their sum is its trace in the plane. Elements outside have none.
 #[test]
 fn hoop_and_radial_stress_of_a_round_body_are_in_its_own_directions() {
     let bench = Bench::new("hoop");
@@ -404,7 +404,7 @@ fn hoop_and_radial_stress_of_a_round_body_are_in_its_own_directions() {
         let count = nodes[cell].len() as f64;
         [0, 1].map(|k| nodes[cell].iter().map(|&n| points[n][k]).sum::<f64>() / count)
     };
-    // the ring's centre is that of all its elements, which are alike on both sides
+    // the ring's centre is that of all its elements, which lie evenly round it
     let centre = [0, 1].map(|k| of_pipe.iter().map(|&c| middle(c)[k]).sum::<f64>() / of_pipe.len() as f64);
     let largest = stress.iter().fold(0f64, |most, s| most.max(s.abs()));
     for cell in 0..nodes.len() {
@@ -421,6 +421,7 @@ fn hoop_and_radial_stress_of_a_round_body_are_in_its_own_directions() {
         let (sin, cos) = y.atan2(x).sin_cos();
         assert!(is(hoop[cell], sin * sin * xx + cos * cos * yy - 2. * sin * cos * xy), "{cell}");
         assert!(is(hoop[cell] + radial[cell], xx + yy), "{cell}");
+        assert!(hoop[cell] > 0. && radial[cell] < 0., "{cell}: {} and {}", hoop[cell], radial[cell]);
     }
     assert!(of_pipe.len() > 100 && of_pipe.iter().any(|&c| hoop[c].abs() > 0.3 * largest));
 }

@@ -6,7 +6,8 @@
 use super::file;
 use super::foreign::{is_of_a_run, refuse_foreign};
 use super::previous::{self, MOVING, PREVIOUS};
-use crate::input::{self, Kind};
+use super::run_files::SUMMARY;
+pub use super::run_files::{STATUS, summary};
 use crate::{Error, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -19,11 +20,6 @@ pub struct Folder {
     /// the folder itself, locked for this process until it ends, however it ends; none where the disk knows no locks
     lock: Option<File>,
 }
-
-/// Its presence says that the run came to an end, its status to which.
-const SUMMARY: &str = "summary.json";
-/// The first file of a run.
-pub const STATUS: &str = "run.sta";
 
 /// How much the results in a folder are worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -124,11 +120,6 @@ pub fn tidy(path: &Path) {
     if let Ok(Some(_lock)) = claim(path) {
         let _ = previous::remove(path).and_then(|()| file::remove(&path.join(MOVING)));
     }
-}
-
-/// The summary of the last run that came to an end there.
-pub fn summary(folder: &Path) -> Option<Value> {
-    serde_json::from_slice(&input::read(&folder.join(SUMMARY), Kind::Record).ok()?).ok()
 }
 
 /// Whether all that a summary names is there and whole; frames count only where they are asked for.

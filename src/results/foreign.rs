@@ -1,8 +1,8 @@
 //! Folders that hold somebody else's files are refused: else a slip such as `--out /` writes among them.
 
 use super::file::is_part;
-use super::folder::{STATUS, summary};
 use super::previous::{MOVING, PREVIOUS};
+use super::run_files::{STATUS, summary};
 use super::{histories, ring_table, series};
 use crate::{Error, Result};
 use std::path::Path;

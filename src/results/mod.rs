@@ -18,6 +18,7 @@ pub mod polar;
 pub mod previous;
 pub mod ring;
 pub mod ring_table;
+mod run_files;
 pub mod series;
 pub mod sites;
 pub mod snapshots;

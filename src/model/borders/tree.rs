@@ -1,4 +1,4 @@
-//! Finds the boxes that meet a box, in the logarithm of their number however unequal their sizes are.
+//! Finds all boxes that meet a given box, in time logarithmic in their number, however unequal their sizes.
 
 /// Sides parallel to the axes: from [x, y] to [x, y].
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,5 @@
 //! Where sections begin and end that are not read: post-processing data, comments, periodicity and whatever else follows.
 
-use super::tokens::section_name;
 use std::collections::HashMap;
 
 /// Places of the lines that begin with `$`, after blanks if there are any, by what stands behind the `$`.
@@ -42,3 +41,10 @@ impl<'a> Markers<'a> {
 
 /// No section has a name of that many bytes; binary data may have no white space for long.
 const LONGEST: usize = 200;
+
+/// `Name` of a line `$Name`; blanks before it and words behind it do not matter.
+pub(super) fn section_name(line: &[u8]) -> Option<&[u8]> {
+    let rest = line.trim_ascii_start().strip_prefix(b"$")?;
+    let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+    (length > 0).then_some(&rest[..length])
+}

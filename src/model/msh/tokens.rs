@@ -1,6 +1,6 @@
 //! The bytes of a mesh file and a place in them: numbers in ASCII or binary, lines, and sentences that say where.
 
-use super::markers::Markers;
+use super::markers::{Markers, section_name};
 use crate::{Error, Result};
 
 /// How the numbers of a file are written.
@@ -243,13 +243,6 @@ pub(super) fn beginning(text: &[u8]) -> String {
     let shown: String = String::from_utf8_lossy(text).chars().take(SHOWN).collect();
     let more = if String::from_utf8_lossy(text).chars().count() > SHOWN { "..." } else { "" };
     format!("{}{more}", shown.escape_debug())
-}
-
-/// `Name` of a line `$Name`; blanks before it and words behind it do not matter.
-pub(super) fn section_name(line: &[u8]) -> Option<&[u8]> {
-    let rest = line.trim_ascii_start().strip_prefix(b"$")?;
-    let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-    (length > 0).then_some(&rest[..length])
 }
 
 fn integer(word: &[u8]) -> Option<i64> {
