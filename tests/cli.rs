@@ -246,7 +246,7 @@ fn names_that_do_not_fit_the_mesh_are_refused_with_those_that_exist() {
             (
                 "interface elsewhere",
                 "block.json --set interfaces.base={\"body\":\"body\",\"thickness\":0.01}",
-                &["interface \"base\"", "border of its body \"body\"", "(0.0000, 0.0000)"],
+                &["interface \"base\"", "its body \"body\" on one side", "(0.0000, 0.0000)"],
             ),
             (
                 "interface of surfaces",
@@ -774,7 +774,7 @@ fn one_name_in_two_dimensions_is_used_by_what_it_means_and_refused_where_that_is
     let table = bench.run_line("check clear.json").stdout;
     let row = |begin: &str| table.lines().find(|line| line.trim_start().starts_with(begin)).unwrap_or_default();
     assert!(row("base                    5 lines").ends_with("support: u_x = u_y = 0"), "{table}");
-    assert!(row("base               point at (2.0000, 3.0000) m").ends_with("probe"), "{table}");
+    assert!(row("base               point at (2.0000, 3.0000) m").ends_with("probe, on the body's side"), "{table}");
     assert!(row("body                    4 lines").contains("interface of body: 4 joints in ground"), "{table}");
     assert!(row("body                    1 elements").contains("material: E 1000.0000 MPa"), "{table}");
     assert!(!table.contains("does not use"), "{table}");

@@ -747,8 +747,9 @@ fn a_mesh_that_does_not_fit_is_told_from_one_that_gmsh_spoiled() {
         eprintln!("\n*** SKIPPED: only root can mount a small disk ***\n");
         return;
     }
-    // as gmsh, which writes on and ends without an error; then a disk that is full before
-    let long = format!("{}\nhead -c 200000 /dev/zero >> \"$OUT\" 2>/dev/null\nexit 0", writes_mesh());
+    // as gmsh, which writes on and ends without an error, so that the mesh is cut off; then a disk that is full before
+    let unfinished = writes_mesh().replace("$EndElements\\n", "");
+    let long = format!("{unfinished}\nhead -c 200000 /dev/zero >> \"$OUT\" 2>/dev/null\nexit 0");
     let cut = place.ensure_by_fake(&[], &long).map_err(|e| e.to_string());
     let nothing = "cat /dev/zero > \"$OUT\" 2>/dev/null; : > \"$OUT\"; exit 0";
     let small = place.ensure_by_fake(&[], nothing).map_err(|e| e.to_string());
