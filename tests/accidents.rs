@@ -117,6 +117,19 @@ fn files_of_somebody_else_are_still_refused_and_kept() {
     }
 }
 
+/// A run replaces the frames of an earlier one.
+#[test]
+fn a_file_of_the_users_among_the_frames_is_kept() {
+    let bench = Bench::new("among-frames");
+    assert_eq!(bench.run_line("run block.json --quiet").code, Some(0));
+    bench.write("output/block/frames/mine.txt", "mine");
+    let Outcome { code, stderr, .. } = bench.run_line("run block.json --quiet");
+    assert_eq!(code, Some(1), "{stderr}");
+    assert!(stderr.contains("output/block/frames holds mine.txt") && stderr.contains("move it elsewhere"), "{stderr}");
+    assert_eq!(fs::read_to_string(bench.path("output/block/frames/mine.txt")).unwrap(), "mine");
+    assert!(bench.path("output/block/summary.json").exists());
+}
+
 /// Steps without end.
 fn endless(bench: &Bench, stderr: &Path) -> Child {
     let sets = ["--set", "time.end=1000 s", "--set", "output.every=1 ms"];
@@ -174,8 +187,8 @@ fn a_folder_removed_or_moved_away_while_a_run_writes_ends_it_with_a_sentence() {
 
 #[test]
 fn a_table_removed_while_a_run_writes_is_no_finished_run() {
-    for name in ["histories.csv", "rings.csv", "run.sta"] {
-        let bench = Bench::new(&format!("removed-{name}"));
+    for name in ["histories.csv", "rings.csv", "run.sta", "frames/block_00000.vtu"] {
+        let bench = Bench::new(&format!("removed-{}", name.replace('/', "-")));
         let stderr = bench.path("stderr");
         let child = endless(&bench, &stderr);
         fs::remove_file(bench.path("output/block").join(name)).unwrap();

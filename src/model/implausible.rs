@@ -101,9 +101,9 @@ fn of_material(name: &str, material: &Material, model: &Model) -> Vec<String> {
 
 fn of_gravity(gravity: f64) -> Option<String> {
     (gravity != 0. && !within(gravity, GRAVITY)).then(|| {
+        let unless = if gravity > GRAVITY[1] { ", unless a centrifuge is meant" } else { "" };
         format!(
-            "gravity is {} m/s2, {} times the Earth's: a number without a unit is in m/s2; write \"1 g\" or 9.81, unless a \
-             centrifuge is meant",
+            "gravity is {} m/s2, {} times the Earth's: a number without a unit is in m/s2; write \"1 g\" or 9.81{unless}",
             short_to(4, gravity),
             short_to(3, gravity / 9.80665)
         )

@@ -163,9 +163,15 @@ fn unlike(mesh: &Mesh, tags: &[usize], cells: [usize; 2]) -> Error {
         let whose = groups.iter().map(|name| format!(" of \"{name}\"")).collect::<String>();
         format!("the {}-node element {}{whose} at {}", mesh.cells[cell].nodes.len(), tags[cell], mesh.place(cell))
     });
-    Error::input(format!(
-        "{}: {one} and {other} meet along a side, but do not share all its nodes: first and second order are mixed; mesh \
-         faces and curves alike, with one Mesh.ElementOrder, and save them together",
-        mesh.name
-    ))
+    let is_second_order = |cell: usize| mesh.cells[cell].nodes.len() > mesh.cells[cell].corners().len();
+    let cause = match cells.iter().all(|&cell| is_second_order(cell)) {
+        true => {
+            "each has a mid-side node of its own, so that the two can part between the corners; join them by BooleanFragments or \
+             Coherence in the script"
+        }
+        false => {
+            "first and second order are mixed; mesh faces and curves with one Mesh.ElementOrder, and save them together"
+        }
+    };
+    Error::input(format!("{}: {one} and {other} meet along a side, but do not share all its nodes: {cause}", mesh.name))
 }

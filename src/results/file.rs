@@ -57,6 +57,11 @@ fn parts(folder: &Path, chosen: impl Fn(&str) -> bool) -> Vec<PathBuf> {
     parts.map(|entry| entry.path()).collect()
 }
 
+/// The error of a file or folder that a run wrote and that is gone before the run ends.
+pub fn lost(path: &Path) -> Error {
+    Error::input(format!("{} was removed or replaced while the run was writing: run it again", path.display()))
+}
+
 pub fn create_folder(path: &Path) -> Result<()> {
     std::fs::create_dir_all(path).map_err(|e| not_written(path, &e))
 }

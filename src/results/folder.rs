@@ -65,12 +65,7 @@ impl Folder {
             Some(lock) if !is_at(lock, &self.path) => Some(self.path.clone()),
             _ => files.iter().map(|name| self.file(name)).find(|file| !file.exists()),
         };
-        lost.map_or(Ok(()), |path| {
-            Err(Error::input(format!(
-                "{} was removed or replaced while the run was writing: run it again",
-                path.display()
-            )))
-        })
+        lost.map_or(Ok(()), |path| Err(file::lost(&path)))
     }
 
     pub fn path(&self) -> &Path {

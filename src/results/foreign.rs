@@ -18,9 +18,21 @@ pub fn refuse_foreign(path: &Path) -> Result<()> {
         || has(MOVING)
         || summary(path).is_some_and(|s| s["inputs"]["coralpipe"].is_string())
     {
-        return Ok(());
+        return refuse_foreign_frames(path);
     }
     refuse(path, "folder of results", |name| BESIDE.contains(&name) || is_of_a_run(path, name))
+}
+
+/// Frames of earlier results go when new ones are written, and a file of the user's beside them would go with them.
+fn refuse_foreign_frames(path: &Path) -> Result<()> {
+    match foreign_frame(&path.join("frames")) {
+        None => Ok(()),
+        Some(name) => Err(Error::input(format!(
+            "{} holds {name}, which is no frame of this program, and a run replaces that folder: move it elsewhere, or choose \
+             another folder with --out",
+            path.join("frames").display()
+        ))),
+    }
 }
 
 /// A folder may hold nothing but files that are half-written: else it is none of this `kind`.
@@ -57,12 +69,18 @@ pub fn is_of_a_run(folder: &Path, name: &str) -> bool {
 }
 
 fn holds_frames(folder: &Path) -> bool {
-    let names = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    foreign_frame(folder).is_none()
+}
+
+/// The name of a file that is neither a frame nor on its way to be one.
+fn foreign_frame(folder: &Path) -> Option<String> {
+    let mut names = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
     let is_frame = |name: &str| {
         let number = name.strip_suffix(".vtu").and_then(|n| n.rsplit_once('_')).map(|(_, number)| number);
         number.is_some_and(|n| n.len() >= 5 && n.bytes().all(|b| b.is_ascii_digit()))
     };
-    names.into_iter().all(|name| name.to_str().is_some_and(|name| is_frame(name) || is_part(name)))
+    let foreign = names.find(|name| !name.to_str().is_some_and(|name| is_frame(name) || is_part(name)));
+    foreign.map(|name| name.to_string_lossy().into_owned())
 }
 
 /// Whether the file is empty or begins with `start`; of a write that was cut short, with a part of it.

@@ -7,6 +7,7 @@ use super::polar::Polar;
 use super::sites::Sites;
 use super::stress::{CellStress, Recovery, principal, von_mises};
 use super::vtu;
+use super::xml_text::possible;
 use crate::model::case::Analysis;
 use crate::model::resolve::Model;
 use crate::number::seconds;
@@ -142,7 +143,7 @@ fn add_materials(base: &mut vtu::Base, model: &Model) {
     let faces = model.faces().map(|(cell, _)| model.material_of[cell].map_or(0, |m| m as i32 + 1));
     // the case may write "surface:NAME"
     let name = |(material, _): &'_ (String, _)| {
-        model.mesh.group_of(material, 2, "material").map_or_else(|_| material.clone(), |group| group.name.clone())
+        possible(model.mesh.group_of(material, 2, "material").map_or(material, |group| &group.name))
     };
     let names: Vec<String> = model.materials.iter().map(name).collect();
     let legend: Vec<String> = names.iter().enumerate().map(|(i, name)| format!("{} {name}", i + 1)).collect();

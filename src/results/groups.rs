@@ -1,5 +1,6 @@
 //! Which cells and nodes of the frames belong to each physical group, as arrays of 0 and 1 to threshold by.
 
+use super::xml_text::possible;
 use crate::model::resolve::Model;
 use std::collections::{BTreeMap, HashMap};
 
@@ -37,6 +38,6 @@ impl Groups {
 }
 
 fn mark(lists: &mut BTreeMap<String, Vec<u8>>, name: &str, length: usize, members: impl Iterator<Item = usize>) {
-    let list = lists.entry(format!("group_{name}")).or_insert_with(|| vec![0; length]);
+    let list = lists.entry(format!("group_{}", possible(name))).or_insert_with(|| vec![0; length]);
     members.for_each(|member| list[member] = 1);
 }

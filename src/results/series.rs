@@ -46,6 +46,17 @@ impl Series {
         self.write_index()
     }
 
+    /// Error: a frame that the `.pvd` names, or the `.pvd` itself, was removed since it was written.
+    pub fn refuse_lost(&self) -> Result<()> {
+        let frames = (0..self.count).map(|number| self.folder.join(self.frame_path(number)));
+        let lost = frames.chain([self.index_path()]).find(|path| !path.exists());
+        lost.map_or(Ok(()), |path| Err(file::lost(&path)))
+    }
+
+    fn index_path(&self) -> PathBuf {
+        self.folder.join(format!("{}.pvd", self.name))
+    }
+
     /// Seen from the `.pvd`.
     fn frame_path(&self, number: usize) -> String {
         format!("frames/{}_{number:05}.vtu", self.name)
@@ -54,6 +65,6 @@ impl Series {
     fn write_index(&self) -> Result<()> {
         let frames = &self.index;
         let index = format!("{BEGINNING}  <Collection>\n{frames}  </Collection>\n</VTKFile>\n");
-        file::replace(&self.folder.join(format!("{}.pvd", self.name)), index.as_bytes())
+        file::replace(&self.index_path(), index.as_bytes())
     }
 }

@@ -71,6 +71,11 @@ impl Snapshots {
         self.frames.as_ref().map_or(0, |(_, series)| series.count())
     }
 
+    /// Errors: those of [`Series::refuse_lost`].
+    pub fn refuse_lost(&self) -> Result<()> {
+        self.frames.as_ref().map_or(Ok(()), |(_, series)| series.refuse_lost())
+    }
+
     fn take_all(mut self, states: &Receiver<State>) -> Result<Snapshots> {
         states.iter().try_for_each(|state| self.take(&state))?;
         Ok(self)

@@ -1,6 +1,6 @@
 //! `coralpipe check`: everything that can be wrong with a case or a mesh, found without solving.
 
-use super::cost::{Cost, REMEDY};
+use super::cost::Cost;
 use super::damping;
 use super::loads;
 use super::mesh_report::{self, counts, groups, shapes};
@@ -186,8 +186,9 @@ fn time(model: &Model) -> String {
 
 /// What a run would refuse without `--large`.
 fn too_large(request: &Request, case: &Case, mesh: &Mesh) -> Option<String> {
-    let excess = Cost::of_run(case, mesh, true).excess(&request.folder(case))?;
-    Some(format!("a run is refused for its size: {excess}; {REMEDY}"))
+    let cost = Cost::of_run(case, mesh, true);
+    let excess = cost.excess(&request.folder(case))?;
+    Some(format!("a run is refused for its size: {excess}; {}", cost.remedy()))
 }
 
 fn warnings(mesh: &Mesh, model: &Model, too_large: Option<String>) -> String {

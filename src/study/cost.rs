@@ -130,20 +130,27 @@ impl Cost {
         })
     }
 
+    /// What to do where a limit is passed. Too many steps or frames often come from a time in the wrong unit.
+    pub fn remedy(&self) -> String {
+        match self.grid.steps > MOST_STEPS || self.grid.frames > MOST_FRAMES {
+            true => format!("a number without a unit is in seconds, so \"100 ms\" is 0.1: {REMEDY}"),
+            false => REMEDY.into(),
+        }
+    }
+
     /// The warning where a limit is passed and `large` allows it.
     ///
     /// Errors: a limit is passed, and it does not.
     pub fn allowed(&self, folder: &Path, large: bool) -> Result<Option<String>> {
         match self.excess(folder) {
-            Some(excess) if !large => Err(Error::input(format!("{excess}; {REMEDY}"))),
+            Some(excess) if !large => Err(Error::input(format!("{excess}; {}", self.remedy()))),
             excess => Ok(excess),
         }
     }
 }
 
 /// What to do where a limit is passed.
-pub const REMEDY: &str = "a number without a unit is in seconds, so \"100 ms\" is 0.1: change time.end, time.step or output.every, or \
-                          let it run by --large if that is meant";
+const REMEDY: &str = "change time.end, time.step or output.every, or let it run by --large if that is meant";
 
 /// Bytes that the disk of a folder has left, where the system says so; the folder need not exist yet.
 fn free_bytes(folder: &Path) -> Option<f64> {

@@ -71,7 +71,9 @@ pub fn warnings(mesh: &Mesh) -> Vec<String> {
         warnings.push(format!("groups of {} without any element: {}", mesh.name, empty.join(", ")));
     }
     if mesh.dropped > 0 {
-        warnings.push(format!("{} elements stand twice in {} and are taken once", mesh.dropped, mesh.name));
+        let count =
+            if mesh.dropped == 1 { "1 element stands".into() } else { format!("{} elements stand", mesh.dropped) };
+        warnings.push(format!("{count} more than once in {}, and is used once", mesh.name));
     }
     warnings
 }

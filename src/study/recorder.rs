@@ -143,6 +143,7 @@ impl<'a> Recorder<'a> {
         let steps_s = self.started.elapsed().as_secs_f64();
         let snapshots = self.photographer.finish()?;
         self.folder.refuse_lost(&[STATUS, "histories.csv", "rings.csv"])?;
+        snapshots.refuse_lost()?;
         let model = &self.prepared.model;
         Ok(Summary {
             status: match ending {

@@ -20,6 +20,20 @@ pub struct Script {
     pub bytes: Vec<u8>,
 }
 
+/// Error: an included file is a device, which Gmsh would read without end.
+fn refuse_device(script: &Path, file: &Path) -> Result<()> {
+    use std::os::unix::fs::FileTypeExt;
+    let is_device = |m: std::fs::Metadata| m.file_type().is_char_device() || m.file_type().is_block_device();
+    match file.metadata().is_ok_and(is_device) {
+        false => Ok(()),
+        true => Err(Error::input(format!(
+            "the script {} includes {}, which is a device: include a file",
+            script.display(),
+            file.display()
+        ))),
+    }
+}
+
 impl Script {
     /// Errors: the script cannot be read.
     pub fn read(path: &Path) -> Result<Script> {
@@ -29,6 +43,7 @@ impl Script {
         let mut waiting = vec![path.to_path_buf()];
         let mut seen: Vec<PathBuf> = Vec::new();
         while let Some(file) = waiting.pop() {
+            refuse_device(path, &file)?;
             let included = match seen.is_empty() {
                 true => Ok(script.bytes.clone()),
                 false if file.is_file() => input::read(&file, Kind::Script),

@@ -10,6 +10,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Two divisions of one border overlap in slivers: on average thinner than this part of the sides along them.
 const SLIVER: f64 = 0.1;
+/// What else helps where elements of one group overlap.
+const FOLDED: &str = "; elements of one surface are folded over each other where its mesh is too coarse for its border: mesh it more finely";
 /// Pairs of groups in one sentence.
 const PAIRS: usize = 4;
 
@@ -74,7 +76,7 @@ impl<'a> Report<'a> {
             let groups = self.groups(self.found.faces(touch));
             common.entry(groups).or_default().add(distance(touch.ends[0], touch.ends[1]), touch.ends);
         }
-        let mut surfaces = Vec::new();
+        let (mut surfaces, mut folded) = (Vec::new(), false);
         for Doubled { groups, area, sides } in self.doubled() {
             let squares: f64 = sides.iter().map(|&side| self.length(side).powi(2)).sum();
             if area.size < SLIVER * squares {
@@ -82,6 +84,7 @@ impl<'a> Report<'a> {
             } else {
                 let size = fixed(4, area.size);
                 let text = format!("overlap over {size} m2 round {} m, which count twice", place(area.centre()));
+                folded |= groups[0] == groups[1];
                 surfaces.push(between(&groups, "elements", &text));
             }
         }
@@ -93,10 +96,11 @@ impl<'a> Report<'a> {
                 more => format!("; so do {more} more pairs of groups"),
             };
             format!(
-                "{}: {}{more}: {}",
+                "{}: {}{more}: {}{}",
                 self.mesh.name,
                 found.iter().take(PAIRS).cloned().collect::<Vec<_>>().join("; "),
-                remedy(!common.is_empty(), !surfaces.is_empty())
+                remedy(!common.is_empty(), !surfaces.is_empty()),
+                if folded { FOLDED } else { "" }
             )
         })
     }

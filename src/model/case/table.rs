@@ -93,10 +93,7 @@ fn read(file: &Path, unit: Unit) -> Result<(Vec<f64>, Vec<f64>), String> {
     };
     let rows = rows(&lines[usize::from(heading.is_some())..], factors).map_err(at)?;
     match rows.len() {
-        0 | 1 => Err(format!(
-            "{name}: it has {} of the at least two lines of numbers that a table needs; {LINE}",
-            rows.len()
-        )),
+        0 | 1 => Err(format!("{name}: a table needs two lines of numbers or more, and it has {}; {LINE}", rows.len())),
         _ => Ok(rows.into_iter().map(|[time, value]| (time, value)).unzip()),
     }
 }
