@@ -4,7 +4,7 @@
 //! number of runs that fail, and a kill at any moment, after which the next run continues or clears what is left.
 
 use super::file;
-use super::foreign::{is_of_a_run, refuse_foreign};
+use super::foreign::{is_of_a_run, refuse_foreign, refuse_foreign_frames};
 use super::previous::{self, MOVING, PREVIOUS};
 use super::run_files::SUMMARY;
 pub use super::run_files::{STATUS, summary};
@@ -40,6 +40,7 @@ impl Folder {
     pub fn prepare(path: &Path, name: &str) -> Result<Folder> {
         file::create_folder_within(path)?;
         refuse_foreign(path)?;
+        refuse_foreign_frames(path)?;
         let folder = Folder { path: path.into(), name: name.into(), lock: claim(path)? };
         let (here, entries) = (worth(path), folder.entries());
         if folder.file(MOVING).exists() || (here > Worth::Nothing && here >= worth(&folder.file(PREVIOUS))) {

@@ -18,13 +18,13 @@ pub fn refuse_foreign(path: &Path) -> Result<()> {
         || has(MOVING)
         || summary(path).is_some_and(|s| s["inputs"]["coralpipe"].is_string())
     {
-        return refuse_foreign_frames(path);
+        return Ok(());
     }
     refuse(path, "folder of results", |name| BESIDE.contains(&name) || is_of_a_run(path, name))
 }
 
 /// Frames of earlier results go when new ones are written, and a file of the user's beside them would go with them.
-fn refuse_foreign_frames(path: &Path) -> Result<()> {
+pub fn refuse_foreign_frames(path: &Path) -> Result<()> {
     match foreign_frame(&path.join("frames")) {
         None => Ok(()),
         Some(name) => Err(Error::input(format!(
