@@ -125,7 +125,7 @@ fn layers_that_share_no_nodes_are_found_with_place_length_groups_and_remedy() {
 #[test]
 fn a_gap_that_comes_from_rounding_is_none_and_a_gap_that_is_drawn_is_air() {
     for shape in FACES {
-        // A script that writes 2.0000001 for 2, coordinates in single precision: 6e-8 of the extent.
+        // A script that writes 2.0000001 for 2.
         assert_touch(&layers(shape, [12, 17], 1e-7).found(), "\"lower\" and \"upper\" touch", 6., &[]);
         // From 0.05 mm between sides of 0.5 m on, parts are apart.
         for gap in [5e-5, 1e-3, 0.1] {
@@ -265,6 +265,18 @@ fn surfaces_over_each_other_are_found_with_the_area_that_counts_twice() {
 }
 
 #[test]
+fn a_corner_that_pokes_into_another_part_is_found() {
+    for shape in FACES {
+        let mut sketch = Sketch::default();
+        sketch.rectangle("a", grid(shape, 4, 2, 0), [0., -2.], [4., 2.]);
+        // A square on its corner, which lies 0.05 m below the upper side of a: 2 (0.05^2 / 2) m2 of it.
+        sketch.surface("b", grid(shape, 2, 2, 1), &|[u, v]| [1.5 + u - v, u + v - 0.05]);
+        let found = sketch.found();
+        assert!(found.contains("\"a\" and \"b\" touch and partly overlap along"), "{shape:?}: {found}");
+    }
+}
+
+#[test]
 fn a_disc_on_an_uncut_rectangle_is_found() {
     for shape in FACES {
         let mut sketch = Sketch::default();
@@ -296,7 +308,11 @@ fn notches_slots_thin_walls_and_holes_are_no_faults() {
         sketch.rectangle("wall", grid(shape, 6, 1, 0), [0., 2.], [6., 2e-4]);
         sketch.rectangle("roof", grid(shape, 6, 2, 0), [0., 2.0004], [6., 2.]);
         assert_eq!(sketch.warnings(), [""; 0], "{shape:?}");
-        // A hole of one element, and an inner ring that shares its nodes.
+        // A wall of 0.1 mm in sides of 10 m.
+        let mut sketch = Sketch::default();
+        sketch.rectangle("wall", grid(shape, 100, 1, 0), [0., 0.], [1000., 1e-4]);
+        assert_eq!(sketch.warnings(), [""; 0], "{shape:?}");
+        // A ring that shares its nodes with the ground round it.
         let mut sketch = Sketch::default();
         sketch.surface("pipe", grid(shape, 16, 2, 0), &ring([0.8, 1.], 0.));
         sketch.surface("ground", grid(shape, 16, 3, 0), &ring([1., 2.], 0.));

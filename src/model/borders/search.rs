@@ -34,7 +34,7 @@ struct Search {
 impl Search {
     fn new(mesh: &Mesh, open: &[Side]) -> Search {
         let segments: Vec<Segment> =
-            open.iter().enumerate().flat_map(|(number, side)| segments(mesh, &side.nodes, number)).collect();
+            open.iter().enumerate().flat_map(|(number, side)| segments(mesh, number, side)).collect();
         let tree = Tree::new(segments.iter().map(|s| Bounds::of([s.from, s.to])).collect());
         Search { segments, tree, extent: Bounds::of(mesh.points.iter().copied()).extent() }
     }
@@ -46,7 +46,8 @@ impl Search {
         for (number, one) in self.segments.iter().enumerate() {
             near.clear();
             self.tree.meeting(&one.reach(self.extent), |other| {
-                if self.segments[other].side != one.side {
+                // The sides of one face are never two parts, however thin it is.
+                if self.segments[other].face != one.face {
                     near.push(other);
                 }
             });
@@ -69,7 +70,7 @@ impl Search {
         let lens = |piece: &Segment| {
             let mut near = vec![];
             self.tree.meeting(&piece.reach(self.extent), |other| near.push(self.segments[other]));
-            near.retain(|other| other.side != piece.side);
+            near.retain(|other| other.face != piece.face);
             let opposite = piece.spans_lens(&near, self.extent)?;
             Some(Touch { sides: [piece.side, opposite.side], ends: [piece.from, piece.to] })
         };

@@ -2,11 +2,12 @@
 
 use super::tree::Bounds;
 use crate::model::mesh::Mesh;
+use crate::model::sides::Side;
 
 /// Nearer than this part of the shorter side, two borders touch; a wider gap is air.
 const TOUCHING: f64 = 2e-5;
-/// Coordinates in single precision differ by up to this part of the mesh's extent.
-const ROUNDING: f64 = 1e-7;
+/// Coordinates may be rounded by up to this part of the mesh's extent, as with nine digits.
+const ROUNDING: f64 = 1e-8;
 /// Pieces of a curved side, a parabola: it rises 1/256 as high above the chord of each as above its own.
 const PIECES: usize = 16;
 /// Pieces of two divisions of one circle of radius R lie apart by up to this part of the height h by which a side of
@@ -28,6 +29,8 @@ pub struct Segment {
     pub to: [f64; 2],
     /// the number of its side
     pub side: usize,
+    /// whose side it is
+    pub face: usize,
     /// of the side's chord [m]
     side_length: f64,
     /// height of the side's middle above its chord [m]
@@ -44,8 +47,9 @@ pub struct Stretch {
     pub same_side: bool,
 }
 
-/// The pieces of the side through these nodes, two ends and the mid-side node if there is one.
-pub fn segments(mesh: &Mesh, nodes: &[usize], side: usize) -> Vec<Segment> {
+/// The pieces of the side of that number.
+pub fn segments(mesh: &Mesh, number: usize, side: &Side) -> Vec<Segment> {
+    let nodes = &side.nodes;
     let [a, b] = [0, 1].map(|i| mesh.points[nodes[i]]);
     let side_length = distance(a, b);
     let m = nodes.get(2).map_or(a, |&n| mesh.points[n]);
@@ -65,7 +69,7 @@ pub fn segments(mesh: &Mesh, nodes: &[usize], side: usize) -> Vec<Segment> {
     };
     let piece = |k| {
         let (from, to) = (at(k), at(k + 1));
-        Segment { from, to, side, side_length, rise, length: distance(from, to) }
+        Segment { from, to, side: number, face: side.face, side_length, rise, length: distance(from, to) }
     };
     (0..pieces).map(piece).collect()
 }
