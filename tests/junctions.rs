@@ -176,11 +176,10 @@ fn a_support_on_an_interface_holds_both_sides_unless_it_names_one() {
         let mut json = case(json!({ "joint": { "body": "layer_2" } }));
         json["supports"] = json!({ "base": ["x", "y"], name: ["x", "y"] });
         let model = support::model(&json, &two_blocks());
-        let rows = [0, 1].map(|of_body: usize| {
+        [0, 1].map(|of_body: usize| {
             let row = model.pairs.iter().map(|pair| [pair.ground, pair.body][of_body]);
-            row.clone().filter(|&n| model.fixed[n] == [true; 2]).count()
-        });
-        rows
+            row.filter(|&n| model.fixed[n] == [true; 2]).count()
+        })
     };
     assert_eq!(held("joint"), [3, 3]);
     assert_eq!(held("joint@ground"), [3, 0]);
