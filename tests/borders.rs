@@ -308,9 +308,9 @@ fn notches_slots_thin_walls_and_holes_are_no_faults() {
         sketch.rectangle("wall", grid(shape, 6, 1, 0), [0., 2.], [6., 2e-4]);
         sketch.rectangle("roof", grid(shape, 6, 2, 0), [0., 2.0004], [6., 2.]);
         assert_eq!(sketch.warnings(), [""; 0], "{shape:?}");
-        // A wall of 0.1 mm in sides of 10 m.
+        // A wall of 1 mm in sides of 10 m.
         let mut sketch = Sketch::default();
-        sketch.rectangle("wall", grid(shape, 100, 1, 0), [0., 0.], [1000., 1e-4]);
+        sketch.rectangle("wall", grid(shape, 100, 1, 0), [0., 0.], [1000., 1e-3]);
         assert_eq!(sketch.warnings(), [""; 0], "{shape:?}");
         // A ring that shares its nodes with the ground round it.
         let mut sketch = Sketch::default();

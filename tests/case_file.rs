@@ -183,8 +183,8 @@ fn a_table_in_a_file_lies_beside_the_case_and_becomes_part_of_what_was_calculate
         ("# in [ms], [kPa]\nt,p\n0,0\n1,1\n", "p.csv, line 1: these units are in a comment"),
         ("ms,kPa\n0,0\n1,1\n", "p.csv, line 1: its heading is"),
         ("t [ms],p\n0,0\n1,1\n", "unit in square brackets to both columns"),
-        ("0,0\n", "at least two"),
-        ("", "at least two"),
+        ("0,0\n", "two lines of numbers or more"),
+        ("", "two lines of numbers or more"),
         ("0,0\n1,1\n1,2\n", "must ascend"),
         ("-1,0\n1,1\n", "from 0 or later"),
     ] {

@@ -17,7 +17,6 @@ use serde_json::{Value, json};
 use support::root;
 
 const DT: f64 = 1e-4;
-const STEPS: usize = 400;
 const PEAK: f64 = 100e3;
 const DURATION: f64 = 5e-3;
 const ALPHA: f64 = 8.;
@@ -33,7 +32,7 @@ const MATERIALS: [(&str, f64, f64, f64, f64); 4] = [
 
 /// The tolerance is tight because the fixed point on Tresca's bound, which a few steps need, ends at it; Newton's
 /// method itself ends at round-off.
-fn case(bodies: &[(&str, &str)], integration: &str, alpha: f64, delta: f64) -> Value {
+fn case(bodies: &[(&str, &str)], integration: &str, alpha: f64, delta: f64, last: usize) -> Value {
     let interface = |&(curve, body): &(&str, &str)| {
         (curve.into(), json!({ "body": body, "thickness": THICKNESS, "integration": integration }))
     };
@@ -47,7 +46,7 @@ fn case(bodies: &[(&str, &str)], integration: &str, alpha: f64, delta: f64) -> V
         "loads": { "surface": { "pressure": { "law": "linear", "peak": PEAK, "duration": DURATION } } },
         "damping": { "alpha": ALPHA, "beta": BETA },
         "newton": { "tolerance": 1e-12 },
-        "time": { "step": DT, "end": STEPS as f64 * DT, "newmark": { "alpha": alpha, "delta": delta } },
+        "time": { "step": DT, "end": last as f64 * DT, "newmark": { "alpha": alpha, "delta": delta } },
     })
 }
 
@@ -287,9 +286,9 @@ struct Comparison {
     most: [usize; 2],
 }
 
-/// `bodies`: (curve, body) of each interface.
-fn compare(mesh: &Mesh, bodies: &[(&str, &str)], integration: &str, alpha: f64, delta: f64) -> Comparison {
-    let model = support::model(&case(bodies, integration, alpha, delta), mesh);
+/// `bodies`: (curve, body) of each interface; `last`: number of the last step.
+fn compare(mesh: &Mesh, bodies: &[(&str, &str)], integration: &str, alpha: f64, delta: f64, last: usize) -> Comparison {
+    let model = support::model(&case(bodies, integration, alpha, delta, last), mesh);
     let system = System::new(&model).unwrap().with_damping(Rayleigh { alpha: ALPHA, beta: BETA }, false);
     let plain = Plain::new(&model, integration == "lobatto", alpha, delta);
     let mut motion = plain.start();
@@ -312,13 +311,13 @@ fn compare(mesh: &Mesh, bodies: &[(&str, &str)], integration: &str, alpha: f64, 
         largest = largest.max(support::peak(&motion.u));
         steps += 1;
     });
-    assert_eq!(steps, STEPS + 1);
+    assert_eq!(steps, last + 1);
     Comparison { difference: difference / largest, most }
 }
 
-fn is_full_newton(mesh: &Mesh, bodies: &[(&str, &str)]) {
+fn is_full_newton(mesh: &Mesh, bodies: &[(&str, &str)], last: usize) {
     for (integration, alpha, delta) in [("lobatto", 0.25, 0.5), ("gauss_1", 0.3025, 0.6)] {
-        let Comparison { difference, most: [open, slipping] } = compare(mesh, bodies, integration, alpha, delta);
+        let Comparison { difference, most: [open, slipping] } = compare(mesh, bodies, integration, alpha, delta, last);
         println!("{integration}, {alpha}, {delta}: {difference:.1e}; at most {open} points open, {slipping} slipping");
         assert!(difference < 1e-9, "{integration}: {difference:.1e} of the peak");
         assert!(open > 4 && slipping > 4, "the joints must open and slip: {open} and {slipping}");
@@ -330,11 +329,13 @@ fn is_full_newton(mesh: &Mesh, bodies: &[(&str, &str)]) {
 #[test]
 fn the_condensed_step_is_full_newton_on_the_whole_system() {
     let mesh = Mesh::read(&root().join("tests/meshes/one_ring.msh")).unwrap();
-    is_full_newton(&mesh, &[("interface_left", "pipe_left")]);
+    is_full_newton(&mesh, &[("interface_left", "pipe_left")], 400);
 }
 
-/// At the two T-junctions three copies of a node have three pairs, of whose jumps two are independent.
+/// At the two T-junctions three copies of a node have three pairs, of whose jumps two are independent. 200 steps: until then
+/// impacts amplify round-off to 3e-11 of the peak, the difference between two node numberings; after 300 steps to 2e-8.
 #[test]
 fn the_condensed_step_is_full_newton_where_interfaces_meet() {
-    is_full_newton(&support::junction::box_on_a_bed().mesh(), &[("interface_left", "pipe_left"), ("bed", "layer_2")]);
+    let bodies = [("interface_left", "pipe_left"), ("bed", "layer_2")];
+    is_full_newton(&support::junction::box_on_a_bed().mesh(), &bodies, 200);
 }

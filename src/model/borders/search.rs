@@ -93,21 +93,26 @@ impl Search {
         pieces.into_iter().filter_map(overlap).collect()
     }
 
-    /// m(x) just beyond a piece: a ray from it to the right leaves a face where it meets an upward piece, whose solid is
-    /// on the left, and enters one at a downward piece. The ray runs just above the point, so that it meets no ends.
+    /// m(x) just beyond a piece. A ray along +x from it leaves a face where it meets an upward piece, whose solid is on
+    /// the left, and enters one at a downward piece; along +y it is the other way round. It runs along the axis that is
+    /// steeper to the piece, so that it does not run along a straight border, and just beside the point, on the side of
+    /// larger coordinates, so that it meets no ends.
     fn layers_beyond(&self, piece: &Segment) -> i64 {
-        let point = piece.probe();
-        let ray = Bounds { low: point, high: [f64::INFINITY, point[1]] };
+        let (point, outwards) = (piece.probe(), piece.outwards());
+        let axis = usize::from(outwards[1].abs() > outwards[0].abs());
+        let (across, sign) = (1 - axis, if axis == 0 { 1 } else { -1 });
+        let mut end = point;
+        end[axis] = f64::INFINITY;
         let mut layers = 0;
-        self.tree.meeting(&ray, |other| {
+        self.tree.meeting(&Bounds { low: point, high: end }, |other| {
             let other = &self.segments[other];
-            let rises = i64::from(other.from[1] <= point[1]) - i64::from(other.to[1] <= point[1]);
-            if other != piece && rises as f64 * cross(other.from, other.to, point) > 0. {
-                layers += rises;
+            let before = |p: [f64; 2]| i64::from(p[across] <= point[across]);
+            let leaves = sign * (before(other.from) - before(other.to));
+            if other != piece && leaves as f64 * cross(other.from, other.to, point) > 0. {
+                layers += leaves;
             }
         });
-        let [right, up] = piece.outwards();
-        layers - i64::from(right < 0. || right == 0. && up < 0.)
+        layers - i64::from(outwards[axis] < 0.)
     }
 }
 
