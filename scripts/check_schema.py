@@ -5,7 +5,7 @@
 
 Every case of geo/ and every case of RIGHT must pass both; every case of WRONG must be refused by both. Then the cases are
 changed at random: the program must accept just what the schema accepts, but for the sentences in BEYOND, which no schema
-can say. Plans of sweeps likewise. Exit 1 with a list on failure.
+can say. Plans of sweeps are compared in the same way. Exit 1 with a list on failure.
 """
 
 import argparse
