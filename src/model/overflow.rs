@@ -69,7 +69,7 @@ fn time(case: &Case, model: &Model) -> impl Iterator<Item = Derived> {
             "1 / (alpha step^2), which the mass is multiplied by,",
             1. / (case.time.integrator().newmark.alpha * step * step),
         ),
-        ("energy_tolerance", "energy_tolerance / end", model.time.energy_budget.unwrap_or(0.)),
+        ("energy_tolerance", "energy_tolerance / end", model.time.energy.rate),
     ]
     .map(|(key, what, value)| Derived { key: format!("time.{key}"), what, value })
     .into_iter()

@@ -72,8 +72,30 @@ pub struct TimeGrid {
     pub step: f64,
     pub steps: usize,
     pub steps_per_frame: usize,
-    /// what joints may make of the largest stored energy, per time [1/s]
-    pub energy_budget: Option<f64>,
+    pub energy: EnergyTolerance,
+}
+
+/// How much energy joints may make that open, close or begin to slip within a step, in shares of the energy supplied.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyTolerance {
+    /// at most [-]
+    pub share: f64,
+    /// before any step is cut for it [-]
+    pub free: f64,
+    /// beyond it per time, in steps that are not cut [1/s]
+    pub rate: f64,
+}
+
+impl EnergyTolerance {
+    /// Where the case names none [-].
+    const DEFAULT: f64 = 0.02;
+
+    /// Over a run until `end` [s]. A tolerance that the case names is a budget from the start of the run; otherwise steps
+    /// are first cut where half of the default is used up.
+    pub fn new(named: Option<f64>, end: f64) -> EnergyTolerance {
+        let (share, free) = named.map_or((EnergyTolerance::DEFAULT, EnergyTolerance::DEFAULT / 2.), |share| (share, 0.));
+        EnergyTolerance { share, free, rate: (share - free) / end }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -327,7 +349,7 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
         step,
         steps: whole("time.end", case.time.end.0, warnings),
         steps_per_frame: whole("output.every", case.frame_interval(), warnings),
-        energy_budget: case.time.energy_tolerance.map(|share| share / case.time.end.0),
+        energy: EnergyTolerance::new(case.time.energy_tolerance, case.time.end.0),
     })
 }
 

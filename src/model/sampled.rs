@@ -76,7 +76,7 @@ mod tests {
     }
 
     fn told(pulse: &Pulse, step: f64) -> Option<String> {
-        let time = TimeGrid { step, steps: (0.1 / step).round() as usize, steps_per_frame: 1, energy_budget: None };
+        let time = TimeGrid { step, steps: (0.1 / step).round() as usize, steps_per_frame: 1, energy: EnergyTolerance::new(None, 0.1) };
         unseen(&load(pulse.clone()), &time)
     }
 

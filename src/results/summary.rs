@@ -114,13 +114,23 @@ pub struct EnergyRecord {
     pub max_relative_error: f64,
     /// largest stored energy [J/m]
     pub peak: f64,
+    /// energy of the initial motion plus work of loads and free field, the largest so far [J/m]
+    pub supplied: f64,
+    /// energy that joints made by opening, closing and first slip within steps [J/m]
+    pub made: f64,
     /// the ledger's last line [J/m]
     pub last: Energies,
 }
 
 impl From<&Ledger> for EnergyRecord {
     fn from(ledger: &Ledger) -> Self {
-        EnergyRecord { max_relative_error: ledger.max_relative_error(), peak: ledger.peak, last: ledger.now }
+        EnergyRecord {
+            max_relative_error: ledger.max_relative_error(),
+            peak: ledger.peak,
+            supplied: ledger.supplied,
+            made: ledger.made,
+            last: ledger.now,
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 //! with other Newmark parameters or HHT it is their numerical damping, and where the case starts with a = 0 it holds
 //! the first imbalance.
 
+use super::interface::JointState;
 use super::system::{Rayleigh, State, System};
 use crate::model::case::Analysis;
 use crate::sparse::multiply;
@@ -31,18 +32,31 @@ pub struct Energies {
     pub residual: f64,
 }
 
-/// Share of the largest stored energy that opening and closing may gain or lose unsaid.
+/// Share of the supplied energy that opening and closing may gain or lose without a warning.
 const SUSPICIOUS: f64 = 0.02;
+
+/// Share of the largest stored energy below which energy made by joints is round-off: the ledger's sums lose up to 2e-7
+/// of it in 1e5 steps.
+const ROUND_OFF: f64 = 1e-7;
 
 /// Residual beyond what round-off leaves [of the largest stored energy]: 1e-10 in common runs, 2e-7 after 1e5 steps a
 /// thousandth as long.
 const UNCLOSED: f64 = 1e-4;
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Ledger {
     pub now: Energies,
     /// the largest kinetic + strain + joint energy so far
     pub peak: f64,
+    /// what a motion can draw on: the largest so far of the energy of the initial motion plus the work of loads and of
+    /// the free field [J]
+    pub supplied: f64,
+    /// the largest fall of `contact` so far: energy that opening, closing and first slip have made [J]
+    pub made: f64,
+    /// energy of the state at t = 0 that is no motion: that of the equilibrium under gravity [J]
+    at_rest: f64,
+    /// the largest `contact` so far [J]
+    most_lost: f64,
     /// the largest |residual| so far
     worst: f64,
     /// forces at the last state: loads that come and go, free field and joints
@@ -52,11 +66,18 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    pub fn start(system: &System, state: &State) -> Ledger {
+    /// At t = 0, with `origin` the unknowns in equilibrium under gravity, which displacements are counted from.
+    pub fn start(system: &System, state: &State, origin: &[f64]) -> Ledger {
         let now = stored(system, state, Forms::of(system, state, state));
+        let all = now.kinetic + now.strain + now.joint;
+        let supplied = now.kinetic + energy_of_displacement(system, state, origin);
         Ledger {
-            now: Energies { work: now.kinetic + now.strain + now.joint, ..now },
-            peak: now.kinetic + now.strain + now.joint,
+            now: Energies { work: all, ..now },
+            peak: all,
+            supplied,
+            made: 0.,
+            at_rest: all - supplied,
+            most_lost: 0.,
             worst: 0.,
             load: system.passing_load(state.time),
             free_field: free_field(system, state),
@@ -94,8 +115,13 @@ impl Ledger {
         };
         now.residual = now.work + now.free_field
             - (now.kinetic + now.strain + now.joint + now.damping + now.boundary + now.friction + now.contact);
+        let most_lost = self.most_lost.max(now.contact);
         Ledger {
             peak: self.peak.max(now.kinetic + now.strain + now.joint),
+            supplied: self.supplied.max(now.work + now.free_field - self.at_rest),
+            made: self.made.max(most_lost - now.contact),
+            at_rest: self.at_rest,
+            most_lost,
             worst: self.worst.max(now.residual.abs()),
             now,
             load,
@@ -104,26 +130,33 @@ impl Ledger {
         }
     }
 
-    /// Says where the joints' bookkeeping is more than a small part of what is stored. In motion joints chatter, and peaks
-    /// are not to be trusted. In statics a body slid, or joints opened or closed, between two load steps, whose forces do
-    /// not give the work of what lies between them.
+    /// Whether joints have made more than this share of the supplied energy, and more than round-off.
+    pub fn has_made_more_than(&self, share: f64) -> bool {
+        self.made > share * self.supplied + ROUND_OFF * self.peak
+    }
+
+    /// A sentence where joints have made or lost more than a small part of the supplied energy. In statics a body slid, or
+    /// joints opened or closed, between two load steps, whose forces do not give the work of what lies between them.
     pub fn warning(&self, analysis: Analysis) -> Option<String> {
-        let share = self.now.contact / self.peak;
-        let percent = 100. * share.abs();
-        let sentence = match analysis {
-            Analysis::Dynamic => format!(
-                "joints that open and close within steps have {} energy, {percent:.1} % of the largest stored: take \
-                 time.hht, time.energy_tolerance, damping, or a smaller time.step",
-                if share < 0. { "made" } else { "lost" },
-            ),
-            Analysis::Static => format!(
-                "{} between two load steps: the energies are sums over the steps, and {percent:.1} % of the largest stored is \
+        let percent = |energy: f64| 100. * energy.abs() / self.supplied;
+        match analysis {
+            Analysis::Dynamic if self.has_made_more_than(SUSPICIOUS) => Some(format!(
+                "joints that open and close within steps have made {:.1} % of the energy supplied: {AGAINST_CHATTER}",
+                percent(self.made)
+            )),
+            Analysis::Dynamic if self.now.contact > SUSPICIOUS * self.supplied => Some(format!(
+                "joints that open and close within steps have lost {:.1} % of the energy supplied: take a smaller time.step",
+                percent(self.now.contact)
+            )),
+            Analysis::Static if self.now.contact.abs() > SUSPICIOUS * self.peak => Some(format!(
+                "{} between two load steps: the energies are sums over the steps, and {:.1} % of the largest stored is \
                  unaccounted for; every step is in equilibrium, but friction depends on the path, so take smaller load steps \
                  (time.step) to follow it",
                 if self.now.friction > 0. { "a body slid" } else { "joints opened or closed" },
-            ),
-        };
-        (self.peak > 0. && share.abs() > SUSPICIOUS).then_some(sentence)
+                100. * self.now.contact.abs() / self.peak
+            )),
+            _ => None,
+        }
     }
 
     /// Says where the residual is more than round-off, for integrators that leave nothing else in it: then numbers
@@ -145,18 +178,9 @@ impl Ledger {
     }
 }
 
-/// What the joints have stored and friction has eaten in one step beyond the work done on them: stored + friction -
-/// (r_n + r_n+1)'dj/2 [J].
-pub fn joint_gain(system: &System, old: &State, new: &State) -> f64 {
-    let work = mean_dot(&joint_force(system, old), &joint_force(system, new), &growth_of_jumps(system, old, new));
-    stored_in_joints(system, new) - stored_in_joints(system, old) + friction(system, old, new) - work
-}
-
-/// Kinetic + strain + joint energy of a state [J].
-pub fn mechanical(system: &System, state: &State, forms: Forms) -> f64 {
-    let stored = stored(system, state, forms);
-    stored.kinetic + stored.strain + stored.joint
-}
+/// What helps against energy made by joints.
+pub const AGAINST_CHATTER: &str =
+    "take time.hht = -0.1, mass = \"redistributed\", damping, a smaller time.step or a larger interface thickness";
 
 /// Quadratic forms of a state and the one before, over all of K, M and C.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -200,9 +224,20 @@ fn drained_by(c: &CsMat<f64>, old: &[f64], new: &[f64]) -> f64 {
     dot(&mean, &multiply(c, &mean))
 }
 
+/// u'K u / 2 of the displacement u since the `origin`, and the change of what the joints store [J].
+fn energy_of_displacement(system: &System, state: &State, origin: &[f64]) -> f64 {
+    let from_origin = State { q: growth(origin, &state.q), ..State::at_rest(system) };
+    let strain = stored(system, &from_origin, Forms::of(system, &from_origin, &from_origin)).strain;
+    let joint = |jumps| stored_with_jumps(system, &state.joints, jumps);
+    strain + (joint(system.jumps(&state.q)) - joint(system.jumps(origin))).abs()
+}
+
 fn stored_in_joints(system: &System, state: &State) -> f64 {
-    let jumps = system.jumps(&state.q);
-    let points = system.interface.points.iter().zip(&state.joints);
+    stored_with_jumps(system, &state.joints, system.jumps(&state.q))
+}
+
+fn stored_with_jumps(system: &System, joints: &[JointState], jumps: &[f64]) -> f64 {
+    let points = system.interface.points.iter().zip(joints);
     points.map(|(p, joint)| p.area * p.law.stored_energy(system.interface.local(p, jumps), joint.slip)).sum()
 }
 
@@ -257,6 +292,10 @@ mod tests {
         let with = |worst: f64, peak: f64| Ledger {
             now: Energies::default(),
             peak,
+            supplied: peak,
+            made: 0.,
+            at_rest: 0.,
+            most_lost: 0.,
             worst,
             load: vec![],
             free_field: vec![],

@@ -10,6 +10,8 @@ pub enum Unsettled {
     Residual { relative: f64, largest: Option<usize>, last: Vec<Status> },
     /// numbers beyond floating point
     Overflow(Place),
+    /// joints have made more energy than is tolerated [J]
+    Energy { made: f64, supplied: f64 },
 }
 
 /// Where numbers first go beyond floating point.

@@ -12,7 +12,7 @@ use crate::results::summary::{
     ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
 };
 use crate::solve::energy::Ledger;
-use crate::solve::step::Step;
+use crate::solve::march::Accepted;
 use crate::solve::system::State;
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -49,7 +49,7 @@ impl<'a> Recorder<'a> {
     pub fn start(
         prepared: &'a Prepared,
         folder: &'a Folder,
-        state: &State,
+        start: &Accepted,
         origin: Vec<f64>,
         grid: Option<Arc<Grid>>,
     ) -> Result<Recorder<'a>> {
@@ -62,7 +62,7 @@ impl<'a> Recorder<'a> {
             histories: Histories::create(&folder.file("histories.csv"), &prepared.model.probes)?,
             photographer: Photographer::new(snapshots)?,
             status,
-            ledger: Ledger::start(&prepared.system, state),
+            ledger: start.ledger.clone(),
             contact: ContactRecord::default(),
             steps: 0,
             iterations: 0,
@@ -71,26 +71,26 @@ impl<'a> Recorder<'a> {
             folder,
             origin,
         };
-        recorder.histories.record(&prepared.system.unknowns, state, &recorder.origin);
-        recorder.write_frame(state)?;
+        recorder.histories.record(&prepared.system.unknowns, start.state(), &recorder.origin);
+        recorder.write_frame(start.state())?;
         Ok(recorder)
     }
 
     /// One whole step of the grid, given as the steps it was made of; returns the last of them.
-    pub fn record(&mut self, number: usize, old: Step, steps: Vec<Step>) -> Result<Step> {
+    pub fn record(&mut self, number: usize, old: Accepted, steps: Vec<Accepted>) -> Result<Accepted> {
         let system = &self.prepared.system;
         self.contact.cut_steps += usize::from(steps.len() > 1);
         let mut last = old;
         for step in steps {
             let (old, new) = (last.state(), step.state());
-            self.ledger = self.ledger.after(system, old, new, step.forms);
             let points = open_and_slipping(&system.interface, new, system.jumps(&new.q));
             self.contact = self.contact.after(&system.interface, old, new, system.jumps(&new.q), points);
-            self.iterations += step.iterations;
+            self.iterations += step.step.iterations;
             self.steps += 1;
             self.write_status(number, old, &step, points);
             last = step;
         }
+        self.ledger = last.ledger.clone();
         self.histories.record(&system.unknowns, last.state(), &self.origin);
         let time = &self.prepared.model.time;
         if number.is_multiple_of(time.steps_per_frame) || number == time.steps {
@@ -112,8 +112,9 @@ impl<'a> Recorder<'a> {
         self.status.flush()
     }
 
-    fn write_status(&mut self, number: usize, old: &State, step: &Step, (open, slipping): (usize, usize)) {
-        let e = &self.ledger.now;
+    fn write_status(&mut self, number: usize, old: &State, reached: &Accepted, (open, slipping): (usize, usize)) {
+        let Accepted { step, ledger, .. } = reached;
+        let e = &ledger.now;
         let left =
             self.started.elapsed().as_secs_f64() / number as f64 * (self.prepared.model.time.steps - number) as f64;
         let _ = writeln!(

@@ -24,7 +24,7 @@ use crate::results::grid::Grid;
 use crate::results::ring;
 use crate::results::summary::Timing;
 use crate::solve::law::Scheme;
-use crate::solve::march::March;
+use crate::solve::march::{Accepted, March};
 use crate::solve::start;
 use crate::solve::step::{Step, Stepper};
 use crate::solve::system::{State, System};
@@ -174,10 +174,11 @@ fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> 
     file::create_folder(&path)?;
     let folder = Folder::prepare(&path, &case.name())?;
     replaced.iter().for_each(|sentence| screen.say(sentence));
+    let start = Accepted::start(&prepared.system, state, &origin);
     let march_and_write = || {
         let grid = Grid::new(&prepared.model, &prepared.system);
-        let mut recorder = Recorder::start(&prepared, &folder, &state, origin, Some(grid.into()))?;
-        let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, state, &screen)?;
+        let mut recorder = Recorder::start(&prepared, &folder, &start, origin, Some(grid.into()))?;
+        let (ending, error) = march_to_end(&prepared, &mut march, &mut recorder, start, &screen)?;
         let mut summary = recorder.finish(ending, inputs, &case.title, timing)?;
         summary.timing.total_s = started.elapsed().as_secs_f64();
         folder.write_summary(&summary.to_json())?;
@@ -203,8 +204,9 @@ pub(super) fn new_march(prepared: &Prepared) -> Result<March<'_>> {
         Analysis::Static => Scheme::Static,
         Analysis::Dynamic => Scheme::Dynamic(model.integrator),
     };
+    let tolerance = (model.analysis == Analysis::Dynamic).then_some(model.time.energy);
     let march = March::new(system, symbolic, scheme, model.time.step, model.newton);
-    Ok(march.map_err(|e| prepared.not_definite(e))?.with_energy_budget(model.time.energy_budget))
+    Ok(march.map_err(|e| prepared.not_definite(e))?.with_energy_tolerance(tolerance))
 }
 
 /// The state at t = 0 from equilibrium under gravity, and the unknowns that displacements are counted from.
@@ -257,12 +259,12 @@ fn march_to_end(
     prepared: &Prepared,
     march: &mut March,
     recorder: &mut Recorder,
-    start: State,
+    start: Accepted,
     screen: &Screen,
 ) -> Result<(Ending, Option<Error>)> {
     let time = prepared.model.time;
     let progress = screen.progress(time.steps);
-    let mut last = Step::start(start);
+    let mut last = start;
     for number in 1..=time.steps {
         let now = last.state().time;
         if interrupted() {
@@ -278,7 +280,10 @@ fn march_to_end(
         };
         progress.step(number);
     }
-    Ok((Ending::Done, None))
+    Ok(match march.may_end_at(&last) {
+        Ok(()) => (Ending::Done, None),
+        Err(why) => (Ending::NoConvergence, Some(unsettled::at_end(prepared, &why))),
+    })
 }
 
 fn with_what_is_left(error: Error, folder: &Folder) -> Error {

@@ -6,6 +6,7 @@ use crate::model::case::Analysis;
 use crate::model::split::Seam;
 use crate::number::{place, seconds};
 use crate::physics::joint::Status;
+use crate::solve::energy::AGAINST_CHATTER;
 use crate::solve::march::MAX_CUTS;
 use crate::solve::unsettled::{Place, Unsettled};
 
@@ -16,6 +17,11 @@ const LAST_DIGITS: f64 = 1e-9;
 pub fn at_start(prepared: &Prepared, unsettled: &Unsettled) -> Error {
     let (cause, advice) = still(prepared, unsettled);
     Error::NoConvergence(format!("no equilibrium was found at t = 0: {cause}; {advice}"))
+}
+
+/// The error of a run at whose end joints have made more energy than is tolerated.
+pub fn at_end(prepared: &Prepared, unsettled: &Unsettled) -> Error {
+    Error::NoConvergence(format!("{}; {}", restless(prepared, unsettled), advice(unsettled, "")))
 }
 
 /// The error of a run that cannot go on from `time` [s] with step `number`.
@@ -102,6 +108,12 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
                  newton.tolerance = {tolerance:e}"
             )
         }
+        Unsettled::Energy { made, supplied } => format!(
+            "joints that open and close within steps have made {:.1} % of the energy supplied, more than \
+             time.energy_tolerance = {}",
+            100. * made / supplied,
+            prepared.model.time.energy.share
+        ),
         Unsettled::Overflow(first) => {
             let at = match *first {
                 Place::JointPoint(i) => format!(", first at {}", places(prepared, &[i])),
@@ -119,6 +131,7 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
 /// What helps against this cause; `otherwise` against statuses that change.
 fn advice(unsettled: &Unsettled, otherwise: &str) -> String {
     match unsettled {
+        Unsettled::Energy { .. } => AGAINST_CHATTER.into(),
         Unsettled::Overflow(_) => "check loads, densities, stiffnesses and steps".into(),
         Unsettled::Residual { relative, .. } if *relative < LAST_DIGITS => {
             "a computer's 16 digits allow no less here: take a larger newton.tolerance".into()

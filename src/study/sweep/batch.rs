@@ -6,8 +6,7 @@ use super::job::Job;
 use crate::results::folder::Folder;
 use crate::results::grid::Grid;
 use crate::results::summary::Timing;
-use crate::solve::march::March;
-use crate::solve::step::Step;
+use crate::solve::march::{Accepted, March};
 use crate::solve::system::State;
 use crate::study::prepare::Prepared;
 use crate::study::recorder::{Ending, Recorder};
@@ -64,9 +63,10 @@ fn march_all<'a>(
     let began = Instant::now();
     let (mut running, mut states) = (Vec::new(), Vec::new());
     for (run, (state, origin)) in ready.iter().zip(starts) {
-        let recorder = Recorder::start(&run.prepared, &run.folder, &state, origin, grid.cloned())?;
+        let start = Accepted::start(&run.prepared.system, state, &origin);
+        let recorder = Recorder::start(&run.prepared, &run.folder, &start, origin, grid.cloned())?;
         running.push(Running { run, march: march.sharing_factor(&run.prepared.system), recorder, began });
-        states.push(Step::start(state));
+        states.push(start);
     }
     let steps = ready.first().map_or(0, |run| run.prepared.model.time.steps);
     for number in 1..=steps {
@@ -79,7 +79,13 @@ fn march_all<'a>(
         }
         (running, states) = step(running, states, number, ended)?;
     }
-    running.into_iter().try_for_each(|run| run.finish(Ending::Done, None, ended))
+    running.into_iter().zip(&states).try_for_each(|(run, last)| match run.march.may_end_at(last) {
+        Ok(()) => run.finish(Ending::Done, None, ended),
+        Err(why) => {
+            let why = unsettled::at_end(&run.run.prepared, &why);
+            run.finish(Ending::NoConvergence, Some(why), ended)
+        }
+    })
 }
 
 /// The state at t = 0, and the unknowns that displacements are counted from.
@@ -96,10 +102,10 @@ fn begin<'a>(job: &'a Job, lead: &Prepared) -> Result<(Ready<'a>, Start)> {
 /// One step of all; those whose joints do not settle are left behind.
 fn step<'a, 'b>(
     mut running: Vec<Running<'a, 'b>>,
-    states: Vec<Step>,
+    states: Vec<Accepted>,
     number: usize,
     ended: &mut Ended<'b>,
-) -> Result<(Vec<Running<'a, 'b>>, Vec<Step>)> {
+) -> Result<(Vec<Running<'a, 'b>>, Vec<Accepted>)> {
     let mut marches: Vec<&mut March> = running.iter_mut().map(|r| &mut r.march).collect();
     let advanced = March::advance_together(&mut marches, &states.iter().collect::<Vec<_>>());
     let (mut going_on, mut next) = (Vec::new(), Vec::new());
