@@ -64,8 +64,8 @@ fn the_papers_case_reads_as_the_papers_numbers_in_si() {
         assert_eq!((material.poisson, material.friction), (poisson, friction), "{group}");
     }
     assert_eq!(case.materials.len(), 5);
-    assert_eq!(case.interfaces["interface_right"].body, "pipe_right");
-    assert_eq!(case.interfaces["interface_right"].thickness.0, 0.01);
+    assert_eq!(case.interfaces.opened["interface_right"].body, "pipe_right");
+    assert_eq!(case.interfaces.opened["interface_right"].thickness.0, 0.01);
     assert_eq!(case.supports["base"], [Axis::X, Axis::Y]);
     assert_eq!(case.supports["side_left"].iter().map(|axis| axis.index()).collect::<Vec<_>>(), [0]);
     let loads: Vec<_> = case.loads.iter().collect();
@@ -90,7 +90,7 @@ fn keys_left_out_take_the_defaults_of_the_design() {
                     "interfaces": { "ring": { "body": "pipe" } },
                     "time": { "step": "0.1 ms", "end": "50 ms" } }"#;
     let case = read_text("defaults", text).unwrap();
-    let ring = &case.interfaces["ring"];
+    let ring = &case.interfaces.opened["ring"];
     assert_eq!((ring.thickness.0, ring.gap.0, ring.integration), (0.01, 0.0, Integration::Lobatto));
     assert_eq!((ring.friction, ring.normal_stiffness, ring.tangential_stiffness), (None, None, None));
     assert_eq!((case.mass, case.time.start), (Mass::Consistent, Start::Equilibrium));
@@ -113,12 +113,12 @@ fn the_further_keys_of_the_design_are_read() {
             c.damping.unwrap().rayleigh == Rayleigh::Coefficients { alpha: 5.0, beta: 5e-4 }
         }),
         ("interfaces.interface_left.integration=gauss_1", |c| {
-            c.interfaces["interface_left"].integration == Integration::Gauss1
+            c.interfaces.opened["interface_left"].integration == Integration::Gauss1
         }),
         ("interfaces.interface_left.normal_stiffness=2 GPa/m", |c| {
-            c.interfaces["interface_left"].normal_stiffness.unwrap().0 == 2e9
+            c.interfaces.opened["interface_left"].normal_stiffness.unwrap().0 == 2e9
         }),
-        ("interfaces.interface_left.gap=2 mm", |c| c.interfaces["interface_left"].gap.0 == 2e-3),
+        ("interfaces.interface_left.gap=2 mm", |c| c.interfaces.opened["interface_left"].gap.0 == 2e-3),
         ("geometry={\"mesh\":\"m.msh\"}", |c| {
             c.geometry == Some(Geometry { source: Some(MeshSource::Mesh("m.msh".into())), unit: MeshUnit::Metre })
         }),
@@ -353,7 +353,11 @@ fn what_was_set_stands_in_the_case_and_in_its_effective_json() {
         "interfaces.interface_left.gap=0.001",
     ];
     let case = Case::read(&default_case(), &sets.map(String::from)).unwrap();
-    assert!(close(case.time.step.0, 2e-4) && case.probes.len() == 1 && case.interfaces["interface_left"].gap.0 == 1e-3);
+    assert!(
+        close(case.time.step.0, 2e-4)
+            && case.probes.len() == 1
+            && case.interfaces.opened["interface_left"].gap.0 == 1e-3
+    );
     assert_eq!(case.json()["time"], json!({ "step": "0.2 ms", "end": "100 ms" }));
     assert_eq!(case.json()["loads"]["surface"]["pressure"]["peak"], "730 kPa");
     let again = read_text("again", &case.json().to_string()).unwrap();

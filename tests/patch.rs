@@ -13,8 +13,7 @@ use coralpipe::solve::assembly;
 use coralpipe::solve::condensed::Condensed;
 use coralpipe::solve::interface::JointState;
 use coralpipe::solve::law::Scheme;
-use coralpipe::solve::march::March;
-use coralpipe::solve::step::Step;
+use coralpipe::solve::step::{Step, Stepper};
 use coralpipe::solve::system::{State, System};
 use nalgebra::{DMatrix, DVector, Matrix2, Rotation2, Vector2};
 use serde_json::json;
@@ -308,9 +307,9 @@ fn on_clay(shape: Shape, quad4: &str, poisson: f64) -> Model {
 fn settlement(model: &Model) -> f64 {
     let system = System::new(model).unwrap();
     let symbolic = system.symbolic();
-    let mut march = March::new(&system, &symbolic, Scheme::Static, model.time.step, model.newton).unwrap();
-    let steps = march.advance(&Step::start(State::at_rest(&system))).unwrap();
-    let moved = system.unknowns.at_nodes(&steps[steps.len() - 1].state().q);
+    let mut stepper = Stepper::new(&system, &symbolic, Scheme::Static, model.time.step, model.newton).unwrap();
+    let state = stepper.step(&system, &Step::start(State::at_rest(&system))).unwrap().into_state();
+    let moved = system.unknowns.at_nodes(&state.q);
     moved.iter().map(|u| -u[1]).fold(0., f64::max)
 }
 

@@ -9,9 +9,8 @@ use coralpipe::results::ring::{Section, rings};
 use coralpipe::results::sites::Sites;
 use coralpipe::results::stress::Recovery;
 use coralpipe::solve::law::Scheme;
-use coralpipe::solve::march::March;
 use coralpipe::solve::start;
-use coralpipe::solve::step::Step;
+use coralpipe::solve::step::{Step, Stepper};
 use coralpipe::solve::system::State;
 use coralpipe::study::prepare::Prepared;
 use std::collections::BTreeSet;
@@ -120,8 +119,8 @@ fn prepared(name: &str, json: &str, mesh: &Mesh, bonded: bool) -> Prepared {
 /// One static step to t = 1 s.
 fn statics(prepared: &Prepared) -> State {
     let Prepared { model, system, symbolic, .. } = prepared;
-    let mut march = March::new(system, symbolic, Scheme::Static, 1., model.newton).unwrap();
-    march.advance(&Step::start(State::at_rest(system))).unwrap().pop().unwrap().into_state()
+    let mut stepper = Stepper::new(system, symbolic, Scheme::Static, 1., model.newton).unwrap();
+    stepper.step(system, &Step::start(State::at_rest(system))).unwrap().into_state()
 }
 
 fn sections(prepared: &Prepared, state: &State) -> Vec<Section> {
@@ -319,11 +318,11 @@ fn opposite_cuts_balance_tractions_and_inertia_while_the_pipe_moves() {
     let prepared = prepared("balance_dynamic", &json, &COARSE.mesh(), false);
     let Prepared { model, system, symbolic, .. } = &prepared;
     let scheme = Scheme::Dynamic(Integrator { newmark: Newmark::default(), hht: 0. });
-    let mut march = March::new(system, symbolic, scheme, model.time.step, model.newton).unwrap();
+    let mut stepper = Stepper::new(system, symbolic, scheme, model.time.step, model.newton).unwrap();
     let rest = start::under_gravity(system, symbolic, model.newton).unwrap().unwrap();
     let mut last = Step::start(start::with_acceleration(system, symbolic, rest, model.start).unwrap());
     for step in 1..=100 {
-        last = march.advance(&last).unwrap().pop().unwrap();
+        last = stepper.step(system, &last).unwrap();
         let state = last.state();
         if step % 20 == 0 {
             let imbalance = imbalance(&prepared, state);

@@ -1,9 +1,8 @@
 //! The case that is timed: the default one, on meshes of its own geometry.
 
 use coralpipe::solve::law::Scheme;
-use coralpipe::solve::march::March;
 use coralpipe::solve::start;
-use coralpipe::solve::step::Step;
+use coralpipe::solve::step::{Step, Stepper};
 use coralpipe::solve::system::State;
 use coralpipe::study::prepare::Prepared;
 use coralpipe::study::run::{self, Request};
@@ -59,12 +58,12 @@ impl Size {
     }
 }
 
-/// The state at t = 0 and the march from there, as `coralpipe run` makes them.
-pub fn ready_to_march(prepared: &Prepared) -> (Step, March<'_>) {
+/// The state at t = 0 and the steps from there, as `coralpipe run` makes them.
+pub fn ready_to_step(prepared: &Prepared) -> (Step, Stepper) {
     let Prepared { model, system, symbolic, .. } = prepared;
     let state = start::with_acceleration(system, symbolic, State::at_rest(system), model.start)
         .expect("the mass of the default case is positive definite");
-    let march = March::new(system, symbolic, Scheme::Dynamic(model.integrator), model.time.step, model.newton)
+    let stepper = Stepper::new(system, symbolic, Scheme::Dynamic(model.integrator), model.time.step, model.newton)
         .expect("so is K*");
-    (Step::start(state), march)
+    (Step::start(state), stepper)
 }

@@ -1,18 +1,19 @@
 //! A contact step beside a linear one: the equations alone, over the whole run of the default case.
 
-use super::case::{Size, ready_to_march};
+use super::case::{Size, ready_to_step};
 use super::clock::{Samples, seconds as time};
 use super::table::{Row, seconds};
-use coralpipe::solve::march::March;
-use coralpipe::solve::step::Step;
+use coralpipe::solve::step::{Step, Stepper};
+use coralpipe::solve::system::System;
 
 const ROUNDS: usize = 3;
 /// Steps of one before the other has its turn: enough to have its own factor in the cache, if that fits.
 const TURN: usize = 50;
 
 struct Runner<'a> {
+    system: &'a System,
     last: Step,
-    march: March<'a>,
+    stepper: Stepper,
     seconds: f64,
     /// steps that left some joint open, and slipping
     open: usize,
@@ -23,8 +24,7 @@ impl Runner<'_> {
     fn take_turn(&mut self, steps: usize) {
         for _ in 0..steps {
             self.seconds += time(|| {
-                let mut steps = self.march.advance(&self.last).expect("the default case converges");
-                self.last = steps.pop().expect("an advance has at least one step");
+                self.last = self.stepper.step(self.system, &self.last).expect("the default case converges");
             });
             let joints = &self.last.state().joints;
             self.open += usize::from(joints.iter().any(|j| j.status.is_open()));
@@ -39,8 +39,8 @@ pub fn rows(size: &Size) -> Vec<Row> {
     let (mut of_contact, mut of_bonded) = (Samples(vec![]), Samples(vec![]));
     for _ in 0..ROUNDS {
         let [mut a, mut b] = [&contact, &bonded].map(|prepared| {
-            let (last, march) = ready_to_march(prepared);
-            Runner { last, march, seconds: 0., open: 0, slipping: 0 }
+            let (last, stepper) = ready_to_step(prepared);
+            Runner { system: &prepared.system, last, stepper, seconds: 0., open: 0, slipping: 0 }
         });
         for _ in 0..steps / TURN {
             a.take_turn(TURN);

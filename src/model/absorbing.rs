@@ -64,7 +64,7 @@ fn refuse_support(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Resu
 
 /// Ground goes on behind an interface: its body.
 fn refuse_interface(case: &Case, mesh: &Mesh, name: &str, cells: &[usize]) -> Result<()> {
-    for (other, interface) in &case.interfaces {
+    for (other, interface) in &case.interfaces.opened {
         let Ok(group) = mesh.group_of(other, 1, "interface") else { continue };
         if cells.iter().any(|cell| group.cells.binary_search(cell).is_ok()) {
             return Err(Error::input(format!(

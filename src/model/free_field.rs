@@ -239,6 +239,7 @@ fn column(name: &str, model: &Model, lines: &[Absorber], strip: &Strip) -> Resul
         pairs: [].into(),
         joints: [].into(),
         laws: vec![],
+        light: vec![false; strip.points.len()],
         probes: vec![],
         free_fields: vec![],
         warnings: vec![],

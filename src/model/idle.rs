@@ -1,6 +1,6 @@
 //! Keys of the case that have a meaning, but none here: said so, since somebody meant something by them.
 
-use super::case::{Analysis, Case, Quad4};
+use super::case::{Analysis, Case, Mass, Quad4};
 use super::initial::Initial;
 use super::mesh::Shape;
 use super::resolve::{Load, Model};
@@ -18,6 +18,9 @@ pub fn idle(case: &Case, model: &Model) -> Vec<String> {
             "a static calculation has no inertia and no damping: {} has no effect",
             of_motion.join(", ")
         ));
+    }
+    if case.mass == Mass::Redistributed && model.pairs.is_empty() {
+        idle.push("mass = \"redistributed\" has no effect: no interface is open".into());
     }
     let is_quad4 = |(cell, _): (usize, _)| model.mesh.cells[cell].shape == Shape::Quad4;
     if case.elements.quad4 == Quad4::BBar && !model.faces().any(is_quad4) {

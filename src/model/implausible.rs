@@ -155,7 +155,7 @@ fn thick_layers(case: &Case, model: &Model) -> Vec<String> {
         model.joints.iter().filter(|joint| joint.seam == seam).map(side).fold(0., f64::max)
     };
     let warning = |(number, seam): (usize, &Seam)| {
-        let interface = &case.interfaces[&seam.curve];
+        let interface = &case.interfaces.opened[&seam.curve];
         let (thickness, longest) = (interface.thickness.0, longest(number));
         let counts = interface.normal_stiffness.is_none() || interface.tangential_stiffness.is_none();
         (counts && longest > 0. && thickness > longest).then(|| {

@@ -32,3 +32,5 @@ pub mod sides;
 pub mod split;
 pub mod travel;
 pub mod units;
+pub mod unresolved;
+mod unused;

@@ -7,13 +7,13 @@ use super::case::{Analysis, Case, Damping, Integration, Integrator, Mass, Newton
 use super::free_field::{self, FreeField, free_fields};
 use super::initial::{Initial, initial};
 use super::loads::loads;
-use super::mesh::{Group, Mesh};
+use super::mesh::Mesh;
 use super::moving_front::MovingFront;
 use super::openings::Openings;
 use super::overflow::refuse_overflow;
 use super::probes::{NodeProbe, probes};
 use super::split::{Joint, Opened, Pair, Seam};
-use crate::escape;
+use super::unused;
 use crate::number::seconds;
 use crate::physics::joint::{Friction, JointLaw};
 use crate::physics::material::Material;
@@ -34,6 +34,8 @@ pub struct Model {
     pub material_of: Vec<Option<usize>>,
     pub quad4: Quad4,
     pub mass: Mass,
+    /// whether each node leaves its mass to the other nodes of its elements
+    pub light: Vec<bool>,
     /// names of the open interfaces; joints refer to them
     pub seams: Vec<Seam>,
     /// names of the interfaces' bodies, each once; also where the case is bonded
@@ -93,7 +95,8 @@ impl EnergyTolerance {
     /// Over a run until `end` [s]. A tolerance that the case names is a budget from the start of the run; otherwise steps
     /// are first cut where half of the default is used up.
     pub fn new(named: Option<f64>, end: f64) -> EnergyTolerance {
-        let (share, free) = named.map_or((EnergyTolerance::DEFAULT, EnergyTolerance::DEFAULT / 2.), |share| (share, 0.));
+        let (share, free) =
+            named.map_or((EnergyTolerance::DEFAULT, EnergyTolerance::DEFAULT / 2.), |share| (share, 0.));
         EnergyTolerance { share, free, rate: (share - free) / end }
     }
 }
@@ -148,13 +151,16 @@ impl Model {
         let (materials, mut material_of) = materials(case, mesh, &mut warnings)?;
         let interfaces = seams(case, mesh, &mut warnings);
         let bodies: BTreeSet<String> = interfaces.iter().map(|seam| seam.body.clone()).collect();
+        if !bonded {
+            unused::refuse_closed_curves(case, mesh)?;
+        }
         let seams = if bonded { vec![] } else { interfaces };
         let (Opened { mesh, pairs, joints, sides }, allowed) = openings.of(mesh, &seams, &case.slits)?;
         warnings.extend(allowed.warnings);
         material_of.resize(mesh.cells.len(), None);
         let law = |joint: &Joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]);
         let laws = joints.iter().map(law).collect::<Result<_>>()?;
-        warnings.extend(unused_groups(case, &mesh));
+        warnings.extend(unused::groups(case, &mesh));
         let loads = loads(case, &mesh, &sides, &mut warnings)?;
         let material = |face: usize| materials[material_of[face].expect("every face has a material by now")].1;
         let time = time_grid(case, &mut warnings)?;
@@ -164,6 +170,7 @@ impl Model {
             free_fields: vec![],
             loads,
             probes: probes(case, &mesh, &mut warnings)?,
+            light: light_nodes(case.mass, &mesh, &pairs),
             pairs,
             joints,
             mass: case.mass,
@@ -209,6 +216,18 @@ impl Model {
         let cells = self.material_of.iter().enumerate();
         cells.filter_map(|(cell, material)| material.map(|m| (cell, &self.materials[m].1)))
     }
+}
+
+/// Whether each node lies on an open interface and leaves its mass to others, if the case asks for it.
+fn light_nodes(mass: Mass, mesh: &Mesh, pairs: &[Pair]) -> Vec<bool> {
+    let mut light = vec![false; mesh.points.len()];
+    if mass == Mass::Redistributed {
+        for pair in pairs.iter().filter(|pair| pair.is_open()) {
+            light[pair.ground] = true;
+            light[pair.body] = true;
+        }
+    }
+    light
 }
 
 fn ground(joint: &Joint, material_of: &[Option<usize>]) -> usize {
@@ -263,7 +282,7 @@ fn no_material(case: &Case, mesh: &Mesh, cell: usize) -> Error {
 fn seams(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Vec<Seam> {
     let exists = |name: &str| mesh.has_group(name);
     let mut seams = Vec::new();
-    for (curve, interface) in &case.interfaces {
+    for (curve, interface) in &case.interfaces.opened {
         if exists(curve) || exists(&interface.body) {
             seams.push(Seam { curve: curve.clone(), body: interface.body.clone() });
         } else {
@@ -273,6 +292,8 @@ fn seams(case: &Case, mesh: &Mesh, warnings: &mut Vec<String>) -> Vec<Seam> {
             ));
         }
     }
+    let unknown = case.interfaces.bonded.iter().filter(|curve| !exists(curve));
+    warnings.extend(unknown.map(|curve| format!("interface \"{curve}\" is not used: {} has no such group", mesh.name)));
     seams
 }
 
@@ -283,7 +304,7 @@ fn joint_law(
     seam: &Seam,
     (ground, material): &(String, Material),
 ) -> Result<(JointLaw, Integration)> {
-    let interface = &case.interfaces[&seam.curve];
+    let interface = &case.interfaces.opened[&seam.curve];
     if joint.shape == Shape::Line3 && interface.integration == Integration::Gauss1 {
         return Err(Error::input(format!(
             "interfaces.{}.integration: one point in the middle does not see the ends of 6-node joints; use \"lobatto\" with \
@@ -351,20 +372,4 @@ fn time_grid(case: &Case, warnings: &mut Vec<String>) -> Result<TimeGrid> {
         steps_per_frame: whole("output.every", case.frame_interval(), warnings),
         energy: EnergyTolerance::new(case.time.energy_tolerance, case.time.end.0),
     })
-}
-
-/// Groups of curves and surfaces that the case does not use.
-fn unused_groups(case: &Case, mesh: &Mesh) -> Option<String> {
-    let unused = mesh.groups.iter().filter(|g| g.dimension > 0 && !g.is_a_side() && !is_used(g, case, mesh));
-    let names: Vec<_> = unused.map(|g| escape::name(&g.name)).collect();
-    (!names.is_empty()).then(|| format!("groups of {} that the case does not use: {}", mesh.name, names.join(", ")))
-}
-
-fn is_used(group: &Group, case: &Case, mesh: &Mesh) -> bool {
-    let of_dimension = |dimension: usize, name: &str| group.dimension == dimension && group.is_called(name);
-    let of_any = |name: &str| group.is_called(name) && mesh.group(name).is_ok_and(|meant| meant == group);
-    case.materials.keys().any(|name| of_dimension(2, name))
-        || case.interfaces.keys().chain(case.boundaries.keys()).chain(&case.slits).any(|name| of_dimension(1, name))
-        || case.loads.iter().any(|(name, load)| of_dimension(load.dimension(), name))
-        || case.supports.keys().chain(case.initial.keys()).any(|name| of_any(name))
 }

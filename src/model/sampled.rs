@@ -76,7 +76,12 @@ mod tests {
     }
 
     fn told(pulse: &Pulse, step: f64) -> Option<String> {
-        let time = TimeGrid { step, steps: (0.1 / step).round() as usize, steps_per_frame: 1, energy: EnergyTolerance::new(None, 0.1) };
+        let time = TimeGrid {
+            step,
+            steps: (0.1 / step).round() as usize,
+            steps_per_frame: 1,
+            energy: crate::model::resolve::EnergyTolerance::new(None, 0.1),
+        };
         unseen(&load(pulse.clone()), &time)
     }
 

@@ -4,7 +4,7 @@
 
 use super::material::Material;
 use super::shape::Shape;
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3};
 
 /// An integration point: shape functions and their gradients in x, y, and the volume it stands for.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +75,21 @@ pub fn lumped_mass(points: &[Point], density: f64) -> DMatrix<f64> {
     let total: f64 = points.iter().map(|p| density * p.dv).sum();
     let along_x: f64 = diagonal.iter().step_by(2).sum();
     DMatrix::from_diagonal(&(diagonal * (total / along_x)))
+}
+
+/// What a node that leaves its mass to others keeps of it, so that the mass matrix stays positive definite [-].
+const KEPT: f64 = 1e-6;
+
+/// s D M D [kg]: the consistent mass M with D^2 = [`KEPT`] at the `light` nodes and 1 at the others, and s such that the
+/// element keeps its mass; M itself where all nodes are light (after Khenous, Laborde and Renard 2008).
+pub fn redistributed_mass(points: &[Point], density: f64, light: &[bool]) -> DMatrix<f64> {
+    let consistent = mass(points, density);
+    if light.iter().all(|light| *light) {
+        return consistent;
+    }
+    let d = DVector::from_iterator(2 * light.len(), light.iter().flat_map(|&l| [if l { KEPT.sqrt() } else { 1. }; 2]));
+    let moved = consistent.component_mul(&(&d * d.transpose()));
+    &moved * (consistent.sum() / moved.sum())
 }
 
 /// What an integral must be exact for.
@@ -163,7 +178,6 @@ fn triangle_6() -> Vec<([f64; 2], f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::DVector;
 
     const STEEL: Material = Material { young: 1e6, poisson: 0.25, density: 7800. };
 
@@ -178,6 +192,21 @@ mod tests {
             nodes.push([(a[0] + b[0]) / 2. + 0.02, (a[1] + b[1]) / 2. - 0.01]);
         }
         nodes
+    }
+
+    /// Translations keep their kinetic energy; light nodes keep a millionth of theirs.
+    #[test]
+    fn redistributed_mass_is_that_of_the_element_and_leaves_next_to_none_at_light_nodes() {
+        for shape in SHAPES {
+            let points = points(shape, &distorted(shape), Integral::Mass);
+            let light: Vec<bool> = (0..shape.node_count()).map(|node| node < 2).collect();
+            let [whole, moved] = [mass(&points, 2.), redistributed_mass(&points, 2., &light)];
+            assert!((moved.sum() / whole.sum() - 1.).abs() < 1e-14, "{shape:?}: round-off of a sum");
+            let share = moved[(0, 0)] / whole[(0, 0)];
+            assert!((KEPT..20. * KEPT).contains(&share), "{shape:?}: {share}, times what the other nodes gain");
+            assert!(moved.cholesky().is_some(), "{shape:?}");
+            assert_eq!(redistributed_mass(&points, 2., &vec![true; shape.node_count()]), whole);
+        }
     }
 
     const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Quad4, Shape::Tri6, Shape::Quad8];

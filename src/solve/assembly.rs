@@ -93,6 +93,10 @@ pub fn mass_of_face(model: &Model, cell: usize, material: &Material) -> DMatrix<
     match model.mass {
         Mass::Consistent => element::mass(&points, material.density),
         Mass::Lumped => element::lumped_mass(&points, material.density),
+        Mass::Redistributed => {
+            let light: Vec<bool> = nodes.iter().map(|&node| model.light[node]).collect();
+            element::redistributed_mass(&points, material.density, &light)
+        }
     }
 }
 

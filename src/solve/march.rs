@@ -86,10 +86,7 @@ impl<'a> March<'a> {
     }
 
     /// [`March::advance`] of up to [`MOST_TOGETHER`](super::step::MOST_TOGETHER) marches over the same factor.
-    pub fn advance_together(
-        marches: &mut [&mut March],
-        old: &[&Accepted],
-    ) -> Vec<Result<Vec<Accepted>, Unsettled>> {
+    pub fn advance_together(marches: &mut [&mut March], old: &[&Accepted]) -> Vec<Result<Vec<Accepted>, Unsettled>> {
         let systems: Vec<&System> = marches.iter().map(|march| march.system).collect();
         let steps: Vec<&Step> = old.iter().map(|old| &old.step).collect();
         let mut steppers: Vec<&mut Stepper> = marches.iter_mut().map(|march| &mut march.levels[0]).collect();

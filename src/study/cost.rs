@@ -62,7 +62,7 @@ impl Cost {
         let count = |span: f64| (span / case.time.step.0).round().max(1.);
         let steps = count(case.time.end.0);
         let moments = 1. + (steps / count(case.frame_interval())).ceil();
-        let is_interface = |g: &Group| g.dimension == 1 && case.interfaces.keys().any(|name| g.is_called(name));
+        let is_interface = |g: &Group| g.dimension == 1 && case.interfaces.opened.keys().any(|name| g.is_called(name));
         let joints: usize = mesh.groups.iter().filter(|g| is_interface(g)).map(|g| g.cells.len()).sum();
         let faces = mesh.cells.iter().filter(|c| c.shape.dimension() == 2).count();
         let frame = FORM + PLACE * (mesh.points.len() + faces + joints) as f64;

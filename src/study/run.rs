@@ -17,6 +17,7 @@ use crate::model::initial::Initial;
 use crate::model::locking;
 use crate::model::openings::Openings;
 use crate::model::resolve::Model;
+use crate::model::unresolved;
 use crate::number::seconds;
 use crate::results::file;
 use crate::results::folder::Folder;
@@ -118,6 +119,7 @@ fn structure(case: &Case, meshed: &Meshed, bonded: bool, openings: &Openings) ->
     model.warnings.extend(unheld_parts(&model));
     model.warnings.extend(locking::warnings(&model));
     model.warnings.extend(implausible(case, &model));
+    model.warnings.extend(unresolved::warnings(&model));
     model.warnings.extend(meshed.warnings.iter().cloned());
     Ok(model)
 }

@@ -9,9 +9,8 @@ use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::msh;
 use coralpipe::model::resolve::Model;
 use coralpipe::solve::law::Scheme;
-use coralpipe::solve::march::March;
 use coralpipe::solve::start;
-use coralpipe::solve::step::Step;
+use coralpipe::solve::step::{Step, Stepper};
 use coralpipe::solve::system::{State, System};
 use nalgebra::DMatrix;
 use serde_json::Value;
@@ -136,14 +135,12 @@ pub fn march(model: &Model, system: &System, watch: impl FnMut(&State)) {
 
 pub fn march_from(start: State, model: &Model, system: &System, mut watch: impl FnMut(&State)) {
     let symbolic = system.symbolic();
-    let mut march =
-        March::new(system, &symbolic, Scheme::Dynamic(model.integrator), model.time.step, model.newton).unwrap();
+    let mut stepper =
+        Stepper::new(system, &symbolic, Scheme::Dynamic(model.integrator), model.time.step, model.newton).unwrap();
     watch(&start);
     let mut last = Step::start(start);
     for _ in 0..model.time.steps {
-        let mut steps = march.advance(&last).unwrap();
-        assert_eq!(steps.len(), 1, "a step at t = {} s was cut", last.state().time);
-        last = steps.remove(0);
+        last = stepper.step(system, &last).unwrap_or_else(|why| panic!("at t = {} s: {why:?}", last.state().time));
         watch(last.state());
     }
 }

@@ -1,11 +1,88 @@
 //! A curve between a body and the ground that opens and slips.
 
-use schemars::JsonSchema;
-use serde::Deserialize;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::MapAccessDeserializer;
+use serde::{Deserialize, Deserializer, de};
 
 use super::range;
 use super::schema::{NotNegative, Positive};
 use crate::model::units::{JointStiffness, Length};
+
+/// Interfaces by curve group.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Interfaces {
+    /// that open into joints
+    pub opened: BTreeMap<String, Interface>,
+    /// that the case leaves closed, since it says "bonded"
+    pub bonded: BTreeSet<String>,
+}
+
+/// What the case says of one interface.
+enum Choice {
+    Opened(Interface),
+    Bonded,
+}
+
+/// The word for an interface whose two sides share their nodes.
+const BONDED: &str = "bonded";
+
+impl<'de> Deserialize<'de> for Choice {
+    fn deserialize<D: Deserializer<'de>>(input: D) -> Result<Choice, D::Error> {
+        struct JointsOrBonded;
+        impl<'de> de::Visitor<'de> for JointsOrBonded {
+            type Value = Choice;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "an object or \"{BONDED}\"")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<Choice, E> {
+                match word {
+                    BONDED => Ok(Choice::Bonded),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(word), &self)),
+                }
+            }
+
+            fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<Choice, A::Error> {
+                Interface::deserialize(MapAccessDeserializer::new(map)).map(Choice::Opened)
+            }
+        }
+        input.deserialize_any(JointsOrBonded)
+    }
+}
+
+impl<'de> Deserialize<'de> for Interfaces {
+    fn deserialize<D: Deserializer<'de>>(input: D) -> Result<Interfaces, D::Error> {
+        let mut interfaces = Interfaces::default();
+        for (curve, choice) in BTreeMap::<String, Choice>::deserialize(input)? {
+            match choice {
+                Choice::Opened(interface) => drop(interfaces.opened.insert(curve, interface)),
+                Choice::Bonded => drop(interfaces.bonded.insert(curve)),
+            }
+        }
+        Ok(interfaces)
+    }
+}
+
+impl JsonSchema for Interfaces {
+    fn schema_name() -> Cow<'static, str> {
+        "Interfaces".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let interface = generator.subschema_for::<Interface>();
+        json_schema!({
+            "type": "object",
+            "additionalProperties": {
+                "anyOf": [interface, { "const": BONDED, "description": "Both sides share their nodes." }]
+            },
+        })
+    }
+}
 
 /// Zero-thickness joints with the stiffness of a thin layer of the ground beside them.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

@@ -37,7 +37,7 @@ pub use duplicate::Unique;
 pub use explosion::{Blast, ExplosionKeys};
 use geometry::GeometryKeys;
 pub use geometry::{Geometry, MeshSource, MeshUnit};
-pub use interface::{Integration, Interface};
+pub use interface::{Integration, Interface, Interfaces};
 pub use load::{Clock, Directed, Load, Loads, Pressure};
 pub use material::Material;
 pub use probe::Probe;
@@ -65,9 +65,9 @@ pub struct Case {
     pub geometry: Option<Geometry>,
     /// Material of each face group.
     pub materials: BTreeMap<String, Material>,
-    /// Curves that open into joints between a body and the ground. Default: none.
+    /// Curves that open into joints between a body and the ground, or "bonded" where they stay closed. Default: none.
     #[serde(default)]
-    pub interfaces: BTreeMap<String, Interface>,
+    pub interfaces: Interfaces,
     /// Curves along which two parts may lie on each other without sharing nodes, such as cracks made by Gmsh's
     /// Plugin(Crack): no force passes there, and the two sides can move into each other. Default: none.
     #[serde(default)]
@@ -96,7 +96,7 @@ pub struct Case {
     /// How elements are formulated.
     #[serde(default)]
     pub elements: Elements,
-    /// Consistent or lumped mass matrix. Default: "consistent".
+    /// Mass matrix: "consistent", "lumped", or "redistributed", which moves the mass of nodes on interfaces to the other nodes of their elements, against chatter of undamped joints. Default: "consistent".
     #[serde(default)]
     pub mass: Mass,
     /// Step, end and integrator.
@@ -198,6 +198,9 @@ pub enum Mass {
     Consistent,
     /// all at the nodes
     Lumped,
+    /// consistent, but that of nodes on interfaces moved to the other nodes of their elements (Khenous, Laborde and Renard
+    /// 2008)
+    Redistributed,
 }
 
 impl Case {
