@@ -126,42 +126,51 @@ fn thirty_undamped_runs_make_next_to_no_energy_or_are_not_done() {
     assert!(cut > 0, "no case came near the limit, so that none shows that steps are cut");
 }
 
-/// The kind of case 09: the block hammers at a step that does not resolve its joints. With mass = "redistributed" or
-/// HHT joints make less than a thousandth of the energy supplied.
+/// A block that hammers for a second after a blast of 20 ms, on joints of 1 mm whose period, 0.8 ms, the step of 1 ms does
+/// not resolve.
+fn hammering() -> Value {
+    let ground = |young: f64| json!({ "young": young, "poisson": 0.3, "density": 2000, "friction": 0.4 });
+    json!({
+        "geometry": { "mesh": "ground.msh" },
+        "materials": { "lower": ground(2e8), "upper": ground(1e8),
+                       "block": { "young": 1e9, "poisson": 0.2, "density": 2400 } },
+        "interfaces": { "ring": { "body": "block", "thickness": "1 mm" } },
+        "boundaries": { "base": "viscous", "left": "free_field", "right": "free_field" },
+        "gravity": 9.81,
+        "loads": { "top": { "pressure": { "law": "linear", "peak": "500 kPa", "duration": "20 ms" } } },
+        "time": { "step": "1 ms", "end": 1 },
+        "output": { "every": 1 },
+    })
+}
+
+/// Shares of the energy supplied: 24 % as good as without a limit, 0.01 % with redistributed mass, 0.6 % with HHT.
 #[test]
 fn redistributed_mass_and_hht_end_the_chatter_of_undamped_joints() {
     let bench = Bench::new("remedies");
     bench.write("ground.msh", ground_with_block().text());
-    let mut case = undamped(&mut Random(9));
-    case["gravity"] = json!(9.81);
-    case["time"] = json!({ "step": 1e-3, "end": 0.3 });
-    bench.write("block.json", case.to_string());
-    let mut made = |set: &str| {
+    bench.write("block.json", hammering().to_string());
+    let made = |set: &str| {
         let Outcome { code, stderr, .. } = bench.run(&["run", "block.json", "--quiet", "--set", set]);
         assert_eq!(code, Some(0), "{set}: {stderr}");
         let energy = energy(&bench);
         number(&energy, "/made") / number(&energy, "/supplied")
     };
-    let plain = made("time.hht=0");
-    let [mass, hht] = ["mass=redistributed", "time.hht=-0.1"].map(&mut made);
+    let [plain, mass, hht] = ["time.energy_tolerance=0.999", "mass=redistributed", "time.hht=-0.1"].map(made);
     println!("made: {plain:.2e} plain, {mass:.2e} redistributed, {hht:.2e} hht");
-    assert!(plain > 5e-3, "nothing to end: {plain}");
-    assert!(mass < 1e-3 && hht < 1e-3, "{mass} {hht}");
+    assert!(plain > 0.1 && mass < 1e-3 && hht < 0.02, "{plain} {mass} {hht}");
 }
 
-/// Where even the shortest steps make energy, the run ends with exit code 3; what it computed is on disk.
+/// Where even the shortest steps make more than is tolerated, the run ends with exit code 3; what it computed is on disk.
 #[test]
 fn a_run_whose_joints_make_too_much_energy_is_not_done() {
     let bench = Bench::new("too_much");
     bench.write("ground.msh", ground_with_block().text());
-    let mut case = undamped(&mut Random(9));
-    case["gravity"] = json!(9.81);
-    case["time"] = json!({ "step": 1e-3, "end": 0.3, "energy_tolerance": 1e-9 });
+    let mut case = hammering();
+    case["time"]["energy_tolerance"] = json!(1e-6);
     bench.write("block.json", case.to_string());
     let Outcome { code, stderr, .. } = bench.run_line("run block.json --quiet");
     assert_eq!(code, Some(3), "{stderr}");
-    for words in
-        ["joints that open and close within steps have made", "time.energy_tolerance = 0.000000001", "hht = -0.1"]
+    for words in ["joints that open and close within steps have made", "time.energy_tolerance = 0.000001", "hht = -0.1"]
     {
         assert!(stderr.contains(words), "{words}: {stderr}");
     }

@@ -220,3 +220,23 @@ fn a_line_in_two_interfaces_is_refused() {
     let sentence = Model::new(&support::case(&json), &drawing.mesh(), false).unwrap_err().to_string();
     assert!(sentence.contains("\"first\" and \"second\"") && sentence.contains("(0.2500, 1.0000)"), "{sentence}");
 }
+
+/// The body would be bonded unnoticed; "bonded" says that it is meant.
+#[test]
+fn a_closed_curve_that_the_case_forgets_is_refused_unless_it_is_bonded() {
+    let mesh = box_on_a_bed().mesh();
+    let model = |interfaces: Value| Model::new(&support::case(&case(interfaces)), &mesh, false);
+    let why = model(json!({})).unwrap_err().to_string();
+    for words in
+        ["\"interface_left\"", "\"pipe_left\"", "{ \"body\": \"pipe_left\" }", "interfaces.interface_left = \"bonded\""]
+    {
+        assert!(why.contains(words), "{words}: {why}");
+    }
+    let bonded = model(json!({ "interface_left": "bonded" })).unwrap();
+    assert!(bonded.joints.is_empty());
+    assert!(!bonded.warnings.iter().any(|w| w.contains("interface_left")), "{:?}", bonded.warnings);
+    let elsewhere = model(json!({ "interface_left": "bonded", "ring": "bonded" })).unwrap();
+    assert!(elsewhere.warnings.iter().any(|w| w.contains("\"ring\" is not used")), "{:?}", elsewhere.warnings);
+    // an open curve between two layers is no body's border
+    assert!(model(json!({ "interface_left": glued("pipe_left") })).is_ok());
+}

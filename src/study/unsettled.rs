@@ -4,7 +4,7 @@ use super::prepare::Prepared;
 use crate::Error;
 use crate::model::case::Analysis;
 use crate::model::split::Seam;
-use crate::number::{place, seconds};
+use crate::number::{place, seconds, short_to};
 use crate::physics::joint::Status;
 use crate::solve::energy::AGAINST_CHATTER;
 use crate::solve::march::MAX_CUTS;
@@ -109,9 +109,9 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
             )
         }
         Unsettled::Energy { made, supplied } => format!(
-            "joints that open and close within steps have made {:.1} % of the energy supplied, more than \
+            "joints that open and close within steps have made {} % of the energy supplied, more than \
              time.energy_tolerance = {}",
-            100. * made / supplied,
+            short_to(2, 100. * made / supplied),
             prepared.model.time.energy.share
         ),
         Unsettled::Overflow(first) => {
