@@ -16,7 +16,7 @@ from book.lib import ROOT, Book, Failed, Page
 from book.pages import code_links, mark_stale, write_page, write_summary
 
 FULL_ONLY = {"condensed"}  # quick: `make test` runs its Rust test anyway
-NO_CASES = {"lib", "pages", "__main__", "ring_theory"}
+NO_CASES = {"lib", "pages", "__main__", "ring_theory", "element_forces"}
 
 
 def main() -> int:

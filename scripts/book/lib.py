@@ -227,7 +227,8 @@ def read_frame(path: Path) -> SimpleNamespace:
     xx, yy, zz, xy recovered at the points; faces: list of node lists, all elements in the file's order; kinds: their
     types; centres (m, 2): where stress holds; stress, strain (m, 4): xx, yy, zz, xy;
     material (m,): place of the group among the case's materials by name, from 1; joints: node lists of the ground's
-    side, with gap, slip, normal_traction, shear_traction, status (k,) each.
+    side, with gap, slip, normal_traction, shear_traction, status (k,) each, traction_vector (k, 2) on the body; point_groups,
+    cell_groups, joint_groups: name of a group -> whether a point, an element or a joint belongs to it.
     """
     mesh = meshio.read(path)
     points = mesh.points[:, :2]
@@ -245,7 +246,16 @@ def read_frame(path: Path) -> SimpleNamespace:
     frame.joints = [cell for i in line_blocks for cell in mesh.cells[i].data.astype(int)]
     for name in ["gap", "slip", "normal_traction", "shear_traction", "status"]:
         setattr(frame, name, joined(name, line_blocks))
+    frame.traction_vector = joined("traction_vector", line_blocks).reshape(-1, 3)[:, :2]
+    frame.point_groups = {name: array == 1 for name, array in groups(mesh.point_data).items()}
+    frame.cell_groups = {name: joined(f"group_{name}", face_blocks) == 1 for name in groups(mesh.cell_data)}
+    frame.joint_groups = {name: joined(f"group_{name}", line_blocks) == 1 for name in groups(mesh.cell_data)}
     return frame
+
+
+def groups(arrays: dict) -> dict:
+    """Name of the group -> its array, of the arrays called group_NAME."""
+    return {name.removeprefix("group_"): array for name, array in arrays.items() if name.startswith("group_")}
 
 
 def centre(kind: str, nodes: np.ndarray) -> np.ndarray:
