@@ -43,27 +43,42 @@ def plane_strain(young, poisson):
     return np.array([[across + 2 * shear, across, 0], [across, across + 2 * shear, 0], [0, 0, shear]])
 
 
-def element_force(kind, points, u, law, density=0.0, gravity=0.0):
-    """K u - weight of an element (n, 2) [N/m], with its area [m^2]."""
-    force, area = np.zeros_like(points), 0.0
+def forces_of(kind, points, u, laws, weights):
+    """K u - weight of elements of one kind (e, n, 2) [N/m].
+
+    points, u: places and displacements of their nodes (e, n, 2); laws: D (e, 3, 3); weights: density times gravity (e,).
+    """
+    forces = np.zeros_like(points)
     for r, s, weight in gauss(kind):
         n, d = shapes(kind, r, s)
-        jacobian = d.T @ points
+        jacobian = np.einsum("nk,eni->eki", d, points)
         dv = weight * np.linalg.det(jacobian)
-        slope = d @ np.linalg.inv(jacobian).T  # dN/dx
-        strain = np.array([slope[:, 0] @ u[:, 0], slope[:, 1] @ u[:, 1], slope[:, 1] @ u[:, 0] + slope[:, 0] @ u[:, 1]])
-        xx, yy, xy = law @ strain
-        force += dv * (slope @ np.array([[xx, xy], [xy, yy]]))
-        force[:, 1] += dv * density * gravity * n
-        area += dv
-    return force, area
+        slope = np.einsum("nk,eik->eni", d, np.linalg.inv(jacobian))  # dN/dx
+        du = np.einsum("eni,enj->eij", slope, u)  # du_j/dx_i
+        strain = np.stack([du[:, 0, 0], du[:, 1, 1], du[:, 1, 0] + du[:, 0, 1]], axis=1)
+        xx, yy, xy = np.einsum("eij,ej->ie", laws, strain)
+        stress = np.array([[xx, xy], [xy, yy]])
+        forces += np.einsum("e,eni,ije->enj", dv, slope, stress)
+        forces[:, :, 1] += np.einsum("e,e,n->en", dv, weights, n)
+    return forces
 
 
 def of_elements(frame, materials: list, gravity=0.0) -> list:
-    """K u - weight of every element, in the frame's order; materials: (young, poisson, density) in the order of their names."""
-    laws = [plane_strain(young, poisson) for young, poisson, _ in materials]
-    return [element_force(kind, frame.points[face], frame.displacement[face], laws[int(m) - 1], materials[int(m) - 1][2], gravity)[0]
-            for kind, face, m in zip(frame.kinds, frame.faces, frame.material)]
+    """K u - weight of every element (n, 2) [N/m], in the frame's order.
+
+    materials: (young, poisson, density) in the order of their names; four-node quadrilaterals are the standard ones.
+    """
+    laws = np.array([plane_strain(young, poisson) for young, poisson, _ in materials])
+    weights = np.array([density * gravity for *_, density in materials])
+    material, kinds, forces = frame.material.astype(int) - 1, np.array(frame.kinds), [None] * len(frame.faces)
+    for kind in set(frame.kinds):
+        which = np.flatnonzero(kinds == kind)
+        nodes = np.array([frame.faces[i] for i in which])
+        of = material[which]
+        found = forces_of(kind, frame.points[nodes], frame.displacement[nodes], laws[of], weights[of])
+        for i, force in zip(which, found):
+            forces[i] = force
+    return forces
 
 
 def joint_areas(frame) -> list:
