@@ -70,7 +70,7 @@ def ground_at(frame, materials, places):
 
 def section_rows(book):
     """A frictionless arch on a bonded bed: section forces against tractions."""
-    result = book.run("arch", geo={"far": 6, "octant": 4} if book.quick else {}, tag="pipe")
+    result = book.run("arch", geo={"far": 6, "octant": 4} if book.quick else {"far": 10}, tag="pipe")
     frame, rings = result.frame(), last(result.rings())
     angle = np.radians(rings["angle_deg"])
     normal, tangent = np.stack([np.cos(angle), np.sin(angle)], 1), np.stack([-np.sin(angle), np.cos(angle)], 1)
@@ -112,7 +112,7 @@ def stiff_rows(book):
     """The arch stuck by stiff joints, beside pipe and ground in one."""
     stiffness = 1e15
     sets = {"interfaces.arch.friction": 1e9, "interfaces.arch.normal_stiffness": stiffness, "interfaces.arch.tangential_stiffness": stiffness}
-    geo = {"far": 6, "octant": 4} if book.quick else {}
+    geo = {"far": 6, "octant": 4} if book.quick else {"far": 10}
     stuck = book.run("arch", geo=geo, sets=sets, tag="stuck").frame()
     merged = book.run("arch", geo=geo, sets=sets, tag="merged", bonded=True)
     found, should = last(book.run("arch", geo=geo, sets=sets, tag="stuck").rings()), last(merged.rings())
