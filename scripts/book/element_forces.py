@@ -26,8 +26,16 @@ def shapes(kind: str, r: float, s: float):
     return np.r_[n - beside @ middle, middle], np.r_[d - beside @ of_middle, of_middle]
 
 
-def gauss(kind: str):
-    """(r, s, weight) of the program's integration points: docs/theory.md, section 2."""
+def of_degree_4():
+    """Six points of a triangle (Dunavant 1985)."""
+    rings = [(0.445948490915965, 0.223381589678011 / 2), (0.091576213509771, 0.109951743655322 / 2)]
+    return [(r, s, w) for a, w in rings for r, s in [(a, a), (1 - 2 * a, a), (a, 1 - 2 * a)]]
+
+
+def gauss(kind: str, weight=False):
+    """(r, s, weight) of the program's points for stiffness or an element's weight: src/physics/element.rs."""
+    if weight and kind.startswith("triangle"):
+        return of_degree_4()
     if kind == "triangle":
         return [(1 / 3, 1 / 3, 0.5)]
     if kind == "triangle6":
@@ -59,6 +67,9 @@ def forces_of(kind, points, u, laws, weights):
         xx, yy, xy = np.einsum("eij,ej->ie", laws, strain)
         stress = np.array([[xx, xy], [xy, yy]])
         forces += np.einsum("e,eni,ije->enj", dv, slope, stress)
+    for r, s, weight in gauss(kind, weight=True):
+        n, d = shapes(kind, r, s)
+        dv = weight * np.linalg.det(np.einsum("nk,eni->eki", d, points))
         forces[:, :, 1] += np.einsum("e,e,n->en", dv, weights, n)
     return forces
 
