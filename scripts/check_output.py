@@ -272,8 +272,8 @@ def check_vectors(path, cell_data, joints):
             at.setdefault(node, []).append(joint)
     for joint in joints:
         near = [other for node in joint.nodes[:2] for other in at[node]]
-        turn = max(np.linalg.norm(other.normal - joint.normal) for other in near)
-        turn = turn if turn < 0.52 else 0.0  # corners keep their own normals
+        turns = [np.linalg.norm(other.normal - joint.normal) for other in near]
+        turn = max(turn for turn in turns if turn < 0.52)  # its own is 0; at corners joints keep their own normals
         value = lambda name: cell_data[name][joint.cell]
         for vector, along_normal, along_tangent in (
             ("gap_vector", "gap", None), ("slip_vector", None, "slip"), ("traction_vector", "normal_traction", "shear_traction"),
