@@ -35,6 +35,7 @@ test: setup $(program)
 	$(python) scripts/check_output.py output/test
 	$(program) run --quiet --set gravity=9.81 --set time.end='"10 ms"' --out output/test_gravity
 	$(python) scripts/check_output.py output/test_gravity
+	$(python) scripts/check_gallery.py --binary $(program)
 	$(python) scripts/random_geometries.py 50 2026 --binary $(program)
 	PYTHONPATH=scripts $(python) -m book --quick
 
