@@ -122,9 +122,11 @@ def check(name, binary, out):
     rows = weigh(case, run(binary, name, out / f"{name}_gravity", STATICS))
     blast = run(binary, name, out / name)
     counts, contact = blast.summary["counts"], blast.summary["contact"]
-    print(f"{name}: {counts['nodes']} nodes, {counts['joints']} joints, {json.dumps(contact)}, {time.monotonic() - started:.1f} s")
+    print(f"{name}: {counts['nodes']} nodes, {counts['joints']} joints, at most {contact['max_open_points']} points open and "
+          f"{contact['max_slipping_points']} slipping, {time.monotonic() - started:.1f} s")
     for body, weight, joints, bonded, error in rows:
-        print(f"    {body:12} weighs {weight / 1e3:10.4f} kN/m; joints {joints / 1e3:10.4f}, bonded or supports {bonded / 1e3:10.4f}; error {error:.1e}")
+        print(f"    {body:12} weighs {weight / 1e3:10.4f} kN/m; joints {joints / 1e3:10.4f}, "
+              f"bonded or supports {bonded / 1e3:10.4f}; error {error:.1e}")
 
 
 def main():

@@ -98,7 +98,7 @@ Physical Point("WALL") = Point In BoundingBox{-x, (roof + floor) / 2 - t, -t, -b
 
 // ---------------------------------------------------------------- mesh
 
-Field[1] = Distance; Field[1].CurvesList = {skin()}; Field[1].Sampling = 200;
+Field[1] = Distance; Field[1].CurvesList = {skin()};
 Field[2] = Threshold; Field[2].InField = 1;
 Field[2].SizeMin = size_near / refine; Field[2].SizeMax = size_far / refine;
 Field[2].DistMin = wall; Field[2].DistMax = wall + 5 * (size_far - size_near);

@@ -98,7 +98,7 @@ Transfinite Curve{circle(), bore()} = 1 + Ceil(refine * around / 4 - 1e-6);
 Transfinite Curve{spokes()} = 1 + Ceil(refine * through - 1e-6);
 Transfinite Surface{pipe()};
 Recombine Surface{pipe()};
-Field[1] = Distance; Field[1].CurvesList = {square(), circle()}; Field[1].Sampling = 200;
+Field[1] = Distance; Field[1].CurvesList = {square(), circle()};
 Field[2] = Threshold; Field[2].InField = 1;
 Field[2].SizeMin = size_near / refine; Field[2].SizeMax = size_far / refine;
 Field[2].DistMin = 0.2; Field[2].DistMax = 0.2 + 5 * (size_far - size_near);

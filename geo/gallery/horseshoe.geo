@@ -100,7 +100,7 @@ Physical Point("INVERT") = Point In BoundingBox{-t, foot + lining - t, -t, t, fo
 
 // ---------------------------------------------------------------- mesh
 
-Field[1] = Distance; Field[1].CurvesList = {face()}; Field[1].Sampling = 200;
+Field[1] = Distance; Field[1].CurvesList = {face()};
 Field[2] = Threshold; Field[2].InField = 1;
 Field[2].SizeMin = size_near / refine; Field[2].SizeMax = size_far / refine;
 Field[2].DistMin = lining; Field[2].DistMax = lining + 5 * (size_far - size_near);

@@ -103,7 +103,7 @@ Physical Point("FOOT_RIGHT") = Point In BoundingBox{-x - t, axis - t, -t, -x + t
 
 // ---------------------------------------------------------------- mesh
 
-Field[1] = Distance; Field[1].CurvesList = {face()}; Field[1].Sampling = 200;
+Field[1] = Distance; Field[1].CurvesList = {face()};
 Field[2] = Threshold; Field[2].InField = 1;
 Field[2].SizeMin = size_near / refine; Field[2].SizeMax = size_far / refine;
 Field[2].DistMin = lining; Field[2].DistMax = lining + 5 * (size_far - size_near);

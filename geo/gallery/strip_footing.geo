@@ -76,7 +76,7 @@ Physical Point("RIGHT") = Point In BoundingBox{half - t, -embed - t, -t, half + 
 
 // ---------------------------------------------------------------- mesh
 
-Field[1] = Distance; Field[1].CurvesList = {seat()}; Field[1].Sampling = 200;
+Field[1] = Distance; Field[1].CurvesList = {seat()};
 Field[2] = Threshold; Field[2].InField = 1;
 Field[2].SizeMin = size_near / refine; Field[2].SizeMax = size_far / refine;
 Field[2].DistMin = size_near; Field[2].DistMax = size_near + 5 * (size_far - size_near);

@@ -96,7 +96,7 @@ Physical Point("ROOF_RIGHT") = Point In BoundingBox{x - t, y - t, -t, x + t, y +
 
 // ---------------------------------------------------------------- mesh
 
-Field[1] = Distance; Field[1].CurvesList = {of_left(), of_right(), between()}; Field[1].Sampling = 200;
+Field[1] = Distance; Field[1].CurvesList = {of_left(), of_right(), between()};
 Field[2] = Threshold; Field[2].InField = 1;
 Field[2].SizeMin = size_near / refine; Field[2].SizeMax = size_far / refine;
 Field[2].DistMin = wall; Field[2].DistMax = wall + 5 * (size_far - size_near);

@@ -22,7 +22,7 @@ middle() = Point In BoundingBox{-e, -e, -e, e, e, e};
 Transfinite Curve{crack()} = along / 2 + 1;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeFromPoints = 0;
-Field[1] = Distance; Field[1].CurvesList = {crack()}; Field[1].Sampling = 200;
+Field[1] = Distance; Field[1].CurvesList = {crack()};
 Field[2] = MathEval; Field[2].F = Sprintf("%g + 0.15 * F1", 2 / along);
 Background Field = 2;
 Physical Surface("plate") = Surface{:};

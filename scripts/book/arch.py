@@ -96,7 +96,8 @@ def section_rows(book):
     shared = -ground_at(frame, [PIPE, (YOUNG, POISSON, 2000)], tips).sum(axis=0) / 2
     right, left = np.argmin(abs(angle)), np.argmin(abs(angle - np.pi))
     whole = force[right] - force[left] + on_body.sum(axis=0) + shared
-    rows.append(Row("pipe: force that the whole arch lacks between its tips, over the largest N", 0, abs(whole).max() / scale, 1e-9, relative=False, why=why))
+    rows.append(Row("pipe: force that the whole arch lacks between its tips, over the largest N", 0, abs(whole).max() / scale, 1e-9,
+                    relative=False, why=why))
     rows.append(Row("pipe: load on the arch, upright, over that of the bed", -1, on_body[:, 1].sum() / bed(frame)[1], 1e-9,
                     why="round-off: a pipe without weight balances"))
     return rows, rings
@@ -143,17 +144,18 @@ def page(book):
 
     return Page(
         "arch", "Pipe with a joint along its arch only", [],
-        problem="A body of 1 m radius in wide ground; the joint runs along its upper half, and ends in the solid at both springlines. First a solid disc of the ground's "
-                "own material under a tension of 100 kPa all round, which tears it off. Then a concrete pipe, wall 0.2 m, under 100 kPa from above and below "
-                "and 50 kPa from the sides, whose arch slips without friction on a bonded bed; and the same with a stiff, stuck joint.",
-        reference="An arc crack of half angle a in an infinite plane under a tension S all round (Muskhelishvili): with Phi = C (z - cos a)/X + D/2, "
-                  "Omega = Phi - D, X^2 = z^2 - 2 z cos a + 1, no resultant and one value of displacement, C = S/(3 - cos a), and the jump across the arc, in the "
-                  "plane of the angle t from its middle, is\n\n"
+        problem="A body of 1 m radius in wide ground; the joint runs along its upper half, and ends in the solid at both springlines. "
+                "First a solid disc of the ground's own material under a tension of 100 kPa all round, which tears it off. Then a "
+                "concrete pipe, wall 0.2 m, under 100 kPa from above and below and 50 kPa from the sides, whose arch slips without "
+                "friction on a bonded bed; and the same with a stiff, stuck joint.",
+        reference="An arc crack of half angle a in an infinite plane under a tension S all round (Muskhelishvili): with "
+                  "Phi = C (z - cos a)/X + D/2, Omega = Phi - D, X^2 = z^2 - 2 z cos a + 1, no resultant and one value of displacement, "
+                  "C = S/(3 - cos a), and the jump across the arc at the angle t from its middle is\n\n"
                   "    u_r + i u_t = 8 (1 - nu^2) S r / (E (3 - cos a)) (2 (cos t - cos a))^(1/2) exp(-i t/2)\n\n"
-                  "which tends to the straight crack's 4 (1 - nu^2) S (a^2 - t^2)^(1/2) r / E for small a; here a = 90 degrees. Of the pipe statics tell: pieces of the arch balance under "
-                  "their section forces and the tractions of their joints, and pressures without friction turn nothing about the centre, so that N r_m + M is one "
-                  "number all along the arch.",
+                  "which tends to the straight crack's 4 (1 - nu^2) S (a^2 - t^2)^(1/2) r / E for small a; here a = 90 degrees. For the "
+                  "pipe statics says: pieces of the arch balance under their section forces and the tractions of their joints, and "
+                  "pressures without friction turn nothing about the centre, so that N r_m + M is one number all along the arch.",
         rows=rows, plot=plot, code=["src/model/split.rs", "src/physics/joint.rs", "src/results/ring.rs"],
-        notes="The tip's node belongs to pipe and ground: `rings.csv` gives half of the ground's force on it to each side of the cut, and so does the balance of the "
-              "whole arch. The ground's forces there and on the bed are computed anew from the displacements.",
+        notes="The tip's node belongs to pipe and ground: `rings.csv` gives half of the ground's force on it to each side of the cut, "
+              "and so does the balance of the whole arch. The ground's forces there and on the bed are computed anew from the displacements.",
     )

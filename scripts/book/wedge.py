@@ -106,17 +106,20 @@ def page(book):
 
     return Page(
         "wedge", "Key block between two sliding blocks", [],
-        problem="A key block under its weight and 100 kPa on its top drives two side blocks apart. It rests on two planes that lean by a = 20 and b = 30 degrees "
-                "from the vertical and meet in its tip; the side blocks stand on a floor and push soft buffers, whose outer ends are on rollers. The three joints "
-                "between the blocks meet in the tip, the one between the side blocks ends on the floor in a second triple point. Once without friction, "
-                "once with f = 0.2 on the planes and 0.3 on the floor, and once more with a pressure of 50 kPa in the joint between the side blocks.",
-        reference="Every joint that slides carries T = f N against its motion: upwards on the key, inwards on the side blocks. With V the load and weight of the key,\n\n"
+        problem="A key block under its weight and 100 kPa on its top drives two side blocks apart. It rests on two planes that lean by "
+                "a = 20 and b = 30 degrees from the vertical and meet in its tip; the side blocks stand on a floor and push soft "
+                "buffers, whose outer ends are on rollers. The three joints between the blocks meet in the tip, the one between the "
+                "side blocks ends on the floor in a second triple point. Once without friction, once with f = 0.2 on the planes and "
+                "0.3 on the floor, and once more with a pressure of 50 kPa in the joint between the side blocks.",
+        reference="Every joint that slides carries T = f N against its motion: upwards on the key, inwards on the side blocks. With V the "
+                  "load and weight of the key,\n\n"
                   "    N_a (sin a + f cos a) + N_b (sin b + f cos b) = V\n"
                   "    N_a (cos a - f sin a) - N_b (cos b - f sin b) = 0\n\n"
-                  "A foot carries F = W + N (sin + f cos), W the weight of its side block and buffer, and the buffer the rest of the thrust, "
-                  "B = N (cos - f sin) - f' F. The joint between the side blocks opens and carries nothing. Blocks that are much stiffer than the buffers "
-                  "only shift, so that the key settles by the blocks' distance over tan a + tan b.",
+                  "A foot carries F = W + N (sin + f cos), W the weight of its side block and buffer, and the buffer the rest of the "
+                  "thrust, B = N (cos - f sin) - f' F. The joint between the side blocks opens and carries nothing; a pressure in it adds "
+                  "itself times the joint's height to both buffers. Blocks that are much stiffer than the buffers only shift, so that the "
+                  "key settles by the blocks' distance over tan a + tan b.",
         rows=smooth + rough + pumped(book), plot=plot, code=["src/model/split.rs", "src/physics/joint.rs", "src/solve/contact.rs"],
-        notes="The resultants are those of the frame's `traction_vector` times the lengths of the joints, which is the joints' own quadrature; the buffers' forces are "
-              "computed anew from the displacements. Where the pressure on a foot acts is not determined by statics, and not compared.",
+        notes="The resultants are those of the frame's `traction_vector` times the lengths of the joints, which is the joints' own "
+              "quadrature; the buffers' forces are computed anew from the displacements. Where the pressure on a foot acts is not determined by statics, and not compared.",
     )
