@@ -107,12 +107,13 @@ impl Law {
     }
 
     /// The joints' own damping in a step from the old state, where the case asks for it.
-    pub fn joint_damping(&self, system: &System, old: &State) -> Option<JointDamping> {
-        let Law::Dynamic(Dynamic { constants, .. }) = *self else { return None };
-        let beta = system.joint_beta?;
-        let [q, v, a] = [&old.q, &old.v, &old.a].map(|x| system.jumps(x));
-        let offset = |i: usize| -constants.for_damping([q[i], v[i], a[i]]);
-        Some(JointDamping { beta, constants, rate_offset: (0..q.len()).map(offset).collect() })
+    pub fn joint_damping<'a>(&self, system: &System, old: &'a State) -> Option<JointDamping<'a>> {
+        match self {
+            Law::Static { .. } => None,
+            Law::Dynamic(_) => {
+                Some(JointDamping { beta: system.joint_beta?, dt: self.dt(), last: system.jumps(&old.q) })
+            }
+        }
     }
 }
 
