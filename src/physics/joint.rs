@@ -185,6 +185,50 @@ mod tests {
         assert_eq!(back.status, Status::Stick);
     }
 
+    /// From jump to jump in a straight line, cut into equal steps.
+    fn walked(from: [f64; 2], to: [f64; 2], slip: f64, steps: usize) -> Response {
+        let [from, to] = [from, to].map(Vector2::from);
+        let at = |k: usize| from + (to - from) * (k as f64 / steps as f64);
+        (1..=steps).fold(LAW.respond(from, slip), |before, k| LAW.respond(at(k), before.slip))
+    }
+
+    /// The states within |tau| <= f p are convex: a straight line leaves them once, and then slips on to its end. So
+    /// one step is exact while the joint stays closed, and where it opens. Round-off of 1000 sums.
+    #[test]
+    fn one_step_is_as_good_as_a_thousand_where_the_joint_was_closed() {
+        let paths = [
+            ([0., -1.], [2., -1.5]),   // sticks, then slips while the pressure grows
+            ([0.7, -1.], [0.8, -0.2]), // slips because the pressure falls
+            ([2., -1.], [1.2, -0.5]),  // slipped, goes back while the pressure falls
+            ([2., -1.], [-2., -2.]),   // slips to the other side
+            ([2., -1.], [2.5, 0.3]),   // slips, then opens
+        ];
+        for (from, to) in paths {
+            let start = LAW.respond(Vector2::from(from), 0.).slip;
+            let [once, often] = [1, 1000].map(|steps| walked(from, to, start, steps));
+            assert_eq!(once.status, often.status);
+            assert!((once.traction - often.traction).norm() < 1e-11, "{from:?} {to:?}");
+            assert!((once.slip - often.slip).abs() < 1e-11, "{from:?} {to:?}");
+        }
+    }
+
+    /// A joint that closes remembers where it stood at the last step and not where it touched: where it then sticks,
+    /// what it moved along before it touched, theta of the step, is in its shear.
+    #[test]
+    fn a_joint_that_closes_counts_what_it_moved_before_it_touched() {
+        let (from, to) = ([0., 0.25], [0.1, -0.75]);
+        let theta = 0.25;
+        let [once, often] = [1, 1000].map(|steps| walked(from, to, 0., steps));
+        // the thousandth of a step in which it touches
+        let of_a_substep = 0.1 / 1000.;
+        assert_eq!([once.status, often.status], [Status::Stick; 2]);
+        assert!((often.slip - once.slip - theta * 0.1).abs() < of_a_substep);
+        assert!((once.traction[0] - often.traction[0] - 4. * theta * 0.1).abs() < 4. * of_a_substep);
+        // one that slips from there on is on f p whatever it remembers
+        let [once, often] = [1, 1000].map(|steps| walked(from, [2., -0.75], 0., steps));
+        assert!((once.traction - often.traction).norm() < 1e-12 && (once.slip - often.slip).abs() < 1e-12);
+    }
+
     /// The law is positively homogeneous of degree one: no scale of its own but the gap.
     #[test]
     fn tractions_scale_with_the_jump() {
