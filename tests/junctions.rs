@@ -240,3 +240,52 @@ fn a_closed_curve_that_the_case_forgets_is_refused_unless_it_is_bonded() {
     // an open curve between two layers is no body's border
     assert!(model(json!({ "interface_left": glued("pipe_left") })).is_ok());
 }
+
+/// At the T-junction on the left of the box three surfaces have a node each.
+#[test]
+fn a_point_where_interfaces_meet_has_a_node_for_each_surface() {
+    let mut drawing = box_on_a_bed();
+    let there = (0..drawing.len()).find(|&node| drawing.at(node) == [2.5, 2.]).unwrap();
+    drawing.cell("P", Shape::Point, &[there]);
+    let mut json = case(json!({ "interface_left": glued("pipe_left"), "bed": glued("layer_2") }));
+    json["probes"] = json!(["P@layer_1", "P@layer_2", "P@pipe_left"]);
+    let model = support::model(&json, &drawing.mesh());
+    for (probe, surface) in model.probes.iter().zip(["layer_1", "layer_2", "pipe_left"]) {
+        assert_eq!(model.mesh.points[probe.node], [2.5, 2.], "{surface}");
+        assert!(model.mesh.nodes_of(model.mesh.group(surface).unwrap()).contains(&probe.node), "{surface}");
+    }
+    json["probes"] = json!(["P@layer_9"]);
+    assert!(Model::new(&support::case(&json), &drawing.mesh(), false).is_err());
+}
+
+/// A bedding plane that runs into both free-field sides, pressed evenly: a plane wave, whose motion is upright
+/// everywhere and, with joints 1e5 times as stiff as 1 m of the ground, that of the merged mesh.
+#[test]
+fn an_interface_runs_into_free_field_sides() {
+    let mut json =
+        case(json!({ "level": { "body": "layer_2", "normal_stiffness": 1e13, "tangential_stiffness": 1e13 } }));
+    json["analysis"] = json!("dynamic");
+    json["supports"] = json!({});
+    json["materials"].as_object_mut().unwrap().remove("pipe_left");
+    json["boundaries"] = json!({ "base": "viscous", "side_left": "free_field", "side_right": "free_field" });
+    json["loads"] =
+        json!({ "surface": { "pressure": { "law": "half_sine", "peak": "100 kPa", "duration": "40 ms" } } });
+    json["time"] = json!({ "step": "0.5 ms", "end": "30 ms" });
+    let mesh = four_blocks().mesh();
+    let last = |bonded: bool| {
+        let model = Model::new(&support::case(&json), &mesh, bonded).unwrap();
+        let system = System::new(&model).unwrap();
+        let mut last = vec![];
+        support::march(&model, &system, |state| last = system.unknowns.at_nodes(&state.q));
+        last
+    };
+    let [opened, merged] = [false, true].map(last);
+    let apart: Vec<f64> = merged.iter().zip(&opened).map(|(m, o)| m[1] - o[1]).collect();
+    let [along, sideways] = [1, 0].map(|axis| peak(&opened.iter().map(|u| u[axis]).collect::<Vec<_>>()));
+    println!("u_y {along:.3e} m, u_x {sideways:.1e} m, from the merged mesh {:.1e} m", peak(&apart));
+    assert!(opened.len() > merged.len());
+    // the joint gives way by 1e-5 of 1 m of ground
+    assert!(peak(&apart) < 2e-5 * along);
+    // both columns and the ground between them move alike to round-off of the contact's tolerance
+    assert!(sideways < 1e-8 * along);
+}

@@ -20,7 +20,7 @@ pub struct FreeField {
     pub lines: Vec<Absorber>,
     /// n_x of the side's outward normal, 1 on the right and -1 on the left
     pub outward: f64,
-    /// for each node of the side its node in the column
+    /// for each node of the side its node in the column, where the two sides of an interface are one
     pub twin: BTreeMap<usize, usize>,
     /// for each node of the column the node of the side at its height
     pub origin: Vec<usize>,
@@ -114,7 +114,8 @@ fn ends(line: &Border, mesh: &Mesh) -> [usize; 2] {
 fn free_field(name: &str, model: &Model, lines: Vec<Absorber>, outward: f64) -> Result<FreeField> {
     for pair in lines.windows(2) {
         let [above, below] = [&pair[0], &pair[1]].map(|l| ends(&l.line, &model.mesh));
-        if above[1] != below[0] {
+        // an interface that runs into the side leaves two nodes at one place
+        if model.mesh.points[above[1]] != model.mesh.points[below[0]] {
             let place = place(model.mesh.points[above[1]]);
             return Err(Error::input(format!(
                 "boundaries.{name}: a side with a free field runs without a break from the surface to the base, and this one does \
@@ -185,13 +186,13 @@ impl Strip {
         let (mut points, mut origin, mut twin) = (Vec::new(), Vec::new(), BTreeMap::new());
         let second_order = lines[0].line.shape == Shape::Line3;
         let mut row = |node: usize, places: &[f64]| {
-            twin.entry(node).or_insert(points.len());
             points.extend(places.iter().map(|&x| [x, mesh.points[node][1]]));
             origin.extend(places.iter().map(|_| node));
             points.len() - places.len()
         };
         let corner: &[f64] = if second_order { &[0., width, width / 2.] } else { &[0., width] };
         let mut above = row(ends(&lines[0].line, mesh)[0], corner);
+        twin.insert(ends(&lines[0].line, mesh)[0], above);
         let border = |line: [usize; 3]| match second_order {
             true => Border { shape: Shape::Line3, nodes: line.to_vec() },
             false => Border { shape: Shape::Line2, nodes: line[..2].to_vec() },
@@ -199,8 +200,12 @@ impl Strip {
         let top = border([above + 1, above, above + 2]);
         let mut faces = Vec::new();
         for Absorber { line, .. } in lines {
+            let [top, bottom] = ends(line, mesh);
             let middle = second_order.then(|| row(line.nodes[2], &[0., width]));
-            let below = row(ends(line, mesh)[1], corner);
+            let below = row(bottom, corner);
+            twin.insert(top, above);
+            twin.insert(bottom, below);
+            twin.extend(middle.map(|middle| (line.nodes[2], middle)));
             let mut nodes = vec![below, below + 1, above + 1, above];
             nodes.extend(middle.iter().flat_map(|m| [below + 2, m + 1, above + 2, *m]));
             faces.push(Cell { shape: if second_order { Shape::Quad8 } else { Shape::Quad4 }, nodes });

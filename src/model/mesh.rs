@@ -19,6 +19,8 @@ impl Cell {
     }
 }
 
+/// Between the name of a group on an interface and that of a side.
+pub const SIDE: char = '@';
 /// What the name of a group ends with that holds the body's side of an interface.
 pub const BODY_SIDE: &str = "@body";
 /// What the name of a group ends with that holds the ground's side of an interface.
@@ -35,9 +37,10 @@ pub struct Group {
 }
 
 impl Group {
-    /// Whether it holds one side of an interface, which the geometry does not name.
+    /// Whether it holds the nodes that one side of an interface, or one surface at a junction, has: the geometry does not
+    /// name it.
     pub fn is_a_side(&self) -> bool {
-        self.name.ends_with(BODY_SIDE) || self.name.ends_with(GROUND_SIDE)
+        self.name.contains(SIDE)
     }
 }
 

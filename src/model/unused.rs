@@ -17,7 +17,8 @@ pub fn groups(case: &Case, mesh: &Mesh) -> Option<String> {
 fn is_used(group: &Group, case: &Case, mesh: &Mesh) -> bool {
     let of_dimension = |dimension: usize, name: &str| group.dimension == dimension && group.is_called(name);
     let of_any = |name: &str| group.is_called(name) && mesh.group(name).is_ok_and(|meant| meant == group);
-    case.materials.keys().any(|name| of_dimension(2, name))
+    let bodies = case.interfaces.opened.values().map(|interface| &interface.body);
+    case.materials.keys().chain(bodies).any(|name| of_dimension(2, name))
         || case
             .interfaces
             .opened

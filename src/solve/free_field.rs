@@ -116,13 +116,13 @@ impl Column {
 /// equilibrium with the strip's own elements, also where their motion is uneven across.
 fn lateral_forces(side: &FreeField) -> Vec<(usize, usize, f64)> {
     let mut found = Vec::new();
-    for (cell, material) in side.column.faces() {
+    for ((cell, material), beside) in side.column.faces().zip(&side.lines) {
         let k = stiffness_of_face(&side.column, cell, material);
         let nodes = &side.column.mesh.cells[cell].nodes;
-        let at_edge = |&(_, node): &(usize, &usize)| side.twin[&side.origin[*node]] == *node;
-        for (a, node_a) in nodes.iter().enumerate().filter(at_edge) {
+        for (a, node_a) in nodes.iter().enumerate() {
+            let Some(&on_side) = beside.line.nodes.iter().find(|node| side.twin[node] == *node_a) else { continue };
             for (b, &node_b) in nodes.iter().enumerate() {
-                found.push((side.origin[*node_a], node_b, -side.outward * k[(2 * a, 2 * b + 1)]));
+                found.push((on_side, node_b, -side.outward * k[(2 * a, 2 * b + 1)]));
             }
         }
     }

@@ -1,13 +1,14 @@
 //! The groups of curves and points in the opened mesh.
 //!
 //! A line follows the face it borders. On an interface a group of curves or points `NAME` has two sides, which are groups
-//! of their own: `NAME@body` and `NAME@ground`. `NAME` itself has the body's nodes there.
+//! of their own: `NAME@body` and `NAME@ground`. `NAME` itself has the body's nodes there. Where interfaces meet, a point
+//! `NAME` has a node for each surface: `NAME@SURFACE`.
 
 use super::line::InterfaceLine;
 use super::sectors::{Copies, node_of};
-use crate::model::mesh::{BODY_SIDE, Cell, GROUND_SIDE, Group, Mesh};
+use crate::model::mesh::{BODY_SIDE, Cell, GROUND_SIDE, Group, Mesh, SIDE, Shape};
 use crate::model::sides::{Edge, Sides, edge};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// Moves the lines and points of `opened`, which are those of the closed `mesh`, to the nodes of the faces they belong
 /// to, and adds the groups of the two sides.
@@ -39,6 +40,33 @@ pub(super) fn follow(mesh: &Mesh, opened: &mut Mesh, lines: &[InterfaceLine], fa
         let body = group.cells.iter().copied().filter(|cell| of_ground.contains_key(cell)).collect();
         for (side, cells) in [(BODY_SIDE, body), (GROUND_SIDE, ground)] {
             opened.groups.push(Group { name: format!("{}{side}", group.name), dimension: group.dimension, cells });
+        }
+    }
+    for point in mesh.groups.iter().filter(|g| g.dimension == 0) {
+        if let [cell] = point.cells[..] {
+            add_nodes_of_surfaces(mesh, opened, &point.name, mesh.cells[cell].nodes[0], copies);
+        }
+    }
+}
+
+/// Where more than two nodes lie at the place of a point, a group for each surface that has one of them.
+fn add_nodes_of_surfaces(mesh: &Mesh, opened: &mut Mesh, point: &str, node: usize, copies: &Copies) {
+    let faces: Vec<usize> = (0..mesh.cells.len())
+        .filter(|&cell| mesh.cells[cell].shape.dimension() == 2 && mesh.cells[cell].nodes.contains(&node))
+        .collect();
+    let nodes_of =
+        |faces: &[usize]| -> BTreeSet<usize> { faces.iter().map(|&face| node_of(copies, face, node)).collect() };
+    if nodes_of(&faces).len() < 3 {
+        return;
+    }
+    for surface in mesh.groups.iter().filter(|g| g.dimension == 2) {
+        let own: Vec<usize> = faces.iter().copied().filter(|face| surface.cells.binary_search(face).is_ok()).collect();
+        let nodes = nodes_of(&own);
+        if let (Some(&own), 1) = (nodes.first(), nodes.len()) {
+            let cells = vec![opened.cells.len()];
+            opened.cells.push(Cell { shape: Shape::Point, nodes: vec![own] });
+            let name = format!("{point}{SIDE}{}", surface.name);
+            opened.groups.push(Group { name, dimension: 0, cells });
         }
     }
 }
