@@ -224,9 +224,7 @@ fn static_jumps(model: &Model, system: &System) -> (Vec<f64>, Vec<JointState>) {
         sum.iter().zip(&f).map(|(s, f)| s + f * load.pulse.at(0.)).collect()
     });
     let mut condensed = Condensed::hanging(system, &system.symbolic(), model.newton).unwrap();
-    let old = vec![JointState::default(); system.interface.points.len()];
-    let still = vec![0.; system.interface.count];
-    let (q, solution) = condensed.solve(system, load, &still, &old).unwrap();
+    let (q, solution) = condensed.solve(system, load, &State::at_rest(system)).unwrap();
     (system.jumps(&q).to_vec(), solution.responses.iter().map(JointState::from).collect())
 }
 

@@ -78,9 +78,7 @@ fn joints_of_unlike_stiffness_find_their_equilibrium() {
         let load = assembly::load(&model, &system.unknowns, &model.loads[0]);
         let load = load.iter().map(|f| f * model.loads[0].pulse.at(0.)).collect();
         let mut condensed = Condensed::hanging(&system, &system.symbolic(), model.newton).unwrap();
-        let old = vec![JointState::default(); system.interface.points.len()];
-        let still = vec![0.; system.interface.count];
-        let (q, solution) = condensed.solve(&system, load, &still, &old).unwrap();
+        let (q, solution) = condensed.solve(&system, load, &State::at_rest(&system)).unwrap();
         let joints: Vec<JointState> = solution.responses.iter().map(JointState::from).collect();
         let left = imbalance(&model, &system, &q, &joints);
         println!("{stiffness:?}, {young_of_a:e}: {} iterations, imbalance {left:.1e}", solution.iterations);

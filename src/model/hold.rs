@@ -19,7 +19,7 @@ pub fn refuse_loose(model: &Model) -> Result<()> {
         return Ok(());
     }
     let model = &model.held();
-    match parts(model).iter().find_map(|part| part.loose(model)) {
+    match parts(model, true).iter().find_map(|part| part.loose(model)) {
         None => Ok(()),
         Some(loose) => Err(Error::input(format!(
             "{loose}: a steady load needs supports (or an interface to what is held) in x, in y and against turning"
@@ -34,7 +34,7 @@ pub fn unheld_parts(model: &Model) -> Vec<String> {
         return vec![];
     }
     let held = &model.held();
-    let parts = parts(held);
+    let parts = parts(held, true);
     if parts.iter().all(|part| part.loose(held).is_some()) {
         return vec![];
     }
@@ -48,25 +48,34 @@ pub fn unheld_parts(model: &Model) -> Vec<String> {
     parts.iter().filter(rests).filter_map(|part| part.loose(held)).map(sentence).collect()
 }
 
+/// Parts that the supports leave a rigid motion as long as no joint presses them: they are held by joints, or by nothing.
+pub fn held_by_joints(model: &Model) -> Vec<Part> {
+    parts(model, false).into_iter().filter(|part| free_motion(model, &part.nodes).is_some()).collect()
+}
+
 /// Faces that share nodes, or that joints press together.
-struct Part {
+pub struct Part {
     /// ascending
-    nodes: Vec<usize>,
+    pub nodes: Vec<usize>,
     /// names of the materials
     surfaces: BTreeSet<String>,
 }
 
 impl Part {
+    /// `"a", "b"`: its surfaces.
+    pub fn name(&self) -> String {
+        self.surfaces.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
+    }
+
     /// `nothing holds "a" round (0, 0) m in x`, if so, with the cause where it lies on another part.
     fn loose(&self, model: &Model) -> Option<String> {
         let how = free_motion(model, &self.nodes)?;
-        let names: Vec<String> = self.surfaces.iter().map(|name| format!("\"{name}\"")).collect();
         let mean =
             |i: usize| self.nodes.iter().map(|&n| model.mesh.points[n][i]).sum::<f64>() / self.nodes.len() as f64;
         let cause = self.slit(model).map_or(String::new(), |at| {
             format!(", since it shares no nodes with the part that it touches along a slit at {}", place(at))
         });
-        Some(format!("nothing holds {} round {} {how}{cause}", names.join(", "), place([0, 1].map(mean))))
+        Some(format!("nothing holds {} round {} {how}{cause}", self.name(), place([0, 1].map(mean))))
     }
 
     /// A place where it touches another part along a slit of the case.
@@ -77,9 +86,9 @@ impl Part {
     }
 }
 
-/// In the order of their first nodes.
-fn parts(model: &Model) -> Vec<Part> {
-    let numbers = part_numbers(model);
+/// In the order of their first nodes; with joints, what they press together is one part.
+fn parts(model: &Model, with_joints: bool) -> Vec<Part> {
+    let numbers = part_numbers(model, with_joints);
     let mut parts: BTreeMap<usize, Part> = BTreeMap::new();
     for (node, &number) in numbers.iter().enumerate() {
         let part = parts.entry(number).or_insert(Part { nodes: vec![], surfaces: BTreeSet::new() });
@@ -99,7 +108,7 @@ fn parts(model: &Model) -> Vec<Part> {
 }
 
 /// For each node the number of its part.
-fn part_numbers(model: &Model) -> Vec<usize> {
+fn part_numbers(model: &Model, with_joints: bool) -> Vec<usize> {
     let mut leader: Vec<usize> = (0..model.mesh.points.len()).collect();
     fn lead(leader: &mut [usize], mut node: usize) -> usize {
         while leader[node] != node {
@@ -116,7 +125,9 @@ fn part_numbers(model: &Model) -> Vec<usize> {
         let nodes = &model.mesh.cells[cell].nodes;
         nodes[1..].iter().for_each(|&n| join(nodes[0], n));
     }
-    model.pairs.iter().for_each(|pair| join(pair.ground, pair.body));
+    if with_joints {
+        model.pairs.iter().for_each(|pair| join(pair.ground, pair.body));
+    }
     (0..leader.len()).map(|n| lead(&mut leader, n)).collect()
 }
 

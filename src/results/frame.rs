@@ -138,7 +138,7 @@ mod tests {
         let interface = along(&[[0., 0.], [1., 0.], [4., 0.]], &[LAW, LAW]);
         let joint = |slip: f64, status: Status| JointState { slip, status, traction: Vector2::new(slip, -2. * slip) };
         let joints = vec![joint(1., Status::Stick), joint(3., Status::SlipForward), joint(7., Status::Open)];
-        let state = State { time: 0., q: vec![], v: vec![], a: vec![], joints, free_field: vec![] };
+        let state = State { time: 0., q: vec![], v: vec![], a: vec![], joints, free_field: vec![], largest_force: 0. };
         // normals point down: y opens a joint by less of it
         let jumps = [0., -0.1, 0., -0.3, 0., -0.7];
         let cells = joint_cells(&interface, 2, &jumps, &state);
@@ -157,7 +157,15 @@ mod tests {
         let law = crate::physics::joint::JointLaw { gap: 0.25, ..LAW };
         let interface = along(&[[0., 0.], [3., 4.]], &[law]);
         let memory = JointState { slip: 0.5, status: Status::SlipForward, traction: Vector2::new(10., -5.) };
-        let state = State { time: 0., q: vec![], v: vec![], a: vec![], joints: vec![memory; 2], free_field: vec![] };
+        let state = State {
+            time: 0.,
+            q: vec![],
+            v: vec![],
+            a: vec![],
+            joints: vec![memory; 2],
+            free_field: vec![],
+            largest_force: 0.,
+        };
         // both pairs part by 2 along n and by 1 along s
         let cell = joint_cells(&interface, 1, &[2.2, -0.4, 2.2, -0.4], &state)[0];
         let found = [cell.gap_vector, cell.slip_vector, cell.jump_vector, cell.traction_vector];

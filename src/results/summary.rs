@@ -221,6 +221,7 @@ mod tests {
             a: vec![],
             joints: statuses.map(|status| JointState { slip: -1e-3, status, ..JointState::default() }).to_vec(),
             free_field: vec![],
+            largest_force: 0.,
         };
         let stuck = state([Status::Stick; 3]);
         let opened = state([Status::Stick, Status::Open, Status::Stick]);

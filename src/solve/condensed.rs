@@ -4,11 +4,12 @@
 
 use super::condensate::Condensate;
 use super::contact::{Contact, Problem, Solution};
-use super::interface::JointState;
 use super::joints::Joints;
-use super::system::System;
+use super::least_motion::Springs;
+use super::system::{State, System};
 use super::unsettled::Unsettled;
 use crate::model::case::Newton;
+use crate::sparse::vector::{add, norm};
 use crate::sparse::{Factor, NotPositiveDefinite, Symbolic};
 use sprs::CsMat;
 use std::sync::Arc;
@@ -17,7 +18,31 @@ use std::sync::Arc;
 pub struct Condensed {
     factor: Arc<Factor>,
     contact: Contact,
+    /// part of A, where joints alone hold a body
+    springs: Option<Springs>,
 }
+
+/// Where a step comes from.
+pub struct Before<'a> {
+    /// displacements of the border [m]
+    pub border: &'a [f64],
+    pub jumps: &'a [f64],
+    /// of the run so far [N]
+    pub largest_force: f64,
+}
+
+impl<'a> Before<'a> {
+    pub fn of(system: &System, state: &'a State) -> Before<'a> {
+        let (displacements, jumps) = state.q.split_at(system.unknowns.count);
+        Before { border: &displacements[system.unknowns.border..], jumps, largest_force: state.largest_force }
+    }
+}
+
+/// A body whose springs carry more than this share of what they did is not held by anything else.
+const NOT_HELD: f64 = 0.9;
+
+/// Of `newton.tolerance`, for what the springs of least motion may carry of the largest force.
+const CARRIED: f64 = 1e-3;
 
 impl Condensed {
     /// A is positive definite by itself.
@@ -27,48 +52,41 @@ impl Condensed {
         a: &CsMat<f64>,
         options: Newton,
     ) -> Result<Condensed, NotPositiveDefinite> {
-        Condensed::with_reference(system, symbolic, a, 0., options)
+        let factor: Arc<Factor> = symbolic.factor(a)?.into();
+        let condensate = Condensate::new(&factor, &system.unknowns, false);
+        Ok(Condensed { factor, contact: Contact::new(condensate.into(), [].into(), options), springs: None })
     }
 
-    /// A = K of bodies that may hang on joints alone. Closed joints are put in, whose forces Newton takes off again,
-    /// none stiffer than the bodies are on average: stiffer ones would cost digits.
+    /// A = K of bodies that may hang on joints alone, and the springs of least motion. Closed joints are put in, whose
+    /// forces Newton takes off again, none stiffer than the bodies beside it: stiffer ones would cost digits.
     pub fn hanging(system: &System, symbolic: &Symbolic, options: Newton) -> Result<Condensed, NotPositiveDefinite> {
-        let stiffest = system.stiffness_at_joints();
-        Condensed::with_reference(system, symbolic, &system.with_closed_joints(stiffest), stiffest, options)
-    }
-
-    /// `matrix`: A with joints in it, closed and at most as stiff as `stiffest` [Pa/m].
-    fn with_reference(
-        system: &System,
-        symbolic: &Symbolic,
-        matrix: &CsMat<f64>,
-        stiffest: f64,
-        options: Newton,
-    ) -> Result<Condensed, NotPositiveDefinite> {
-        let factor: Arc<Factor> = symbolic.factor(matrix)?.into();
-        let condensate = Condensate::new(&factor, &system.unknowns, stiffest > 0.);
-        Ok(Condensed { factor, contact: Contact::new(condensate.into(), stiffest, options) })
+        let closed = system.closed_joints_as_stiff_as_bodies();
+        let springs = Springs::new(system, &closed);
+        let mut matrix = system.with_joints(&closed);
+        for (unknown, stiffness) in springs.iter().flat_map(Springs::on_diagonal) {
+            *matrix.get_mut(unknown, unknown).expect("every diagonal entry is in the pattern") += stiffness;
+        }
+        let factor: Arc<Factor> = symbolic.factor(&matrix)?.into();
+        let condensate = Condensate::new(&factor, &system.unknowns, true);
+        Ok(Condensed { factor, contact: Contact::new(condensate.into(), closed.into(), options), springs })
     }
 
     /// For another system of the same matrix, whose joints have a history of their own.
     pub fn sharing_factor(&self) -> Condensed {
-        Condensed { factor: self.factor.clone(), contact: self.contact.sharing_condensate() }
+        Condensed {
+            factor: self.factor.clone(),
+            contact: self.contact.sharing_condensate(),
+            springs: self.springs.clone(),
+        }
     }
 
-    /// A x + r(j) = b; x, the jumps behind it, and how the joints settled. They move on from the jumps `last` and the
-    /// states `old`.
-    pub fn solve(
-        &mut self,
-        system: &System,
-        b: Vec<f64>,
-        last: &[f64],
-        old: &[JointState],
-    ) -> Result<(Vec<f64>, Solution), Unsettled> {
+    /// A x + r(j) = b; x, the jumps behind it, and how the joints settled. They move on from an `old` state.
+    pub fn solve(&mut self, system: &System, b: Vec<f64>, old: &State) -> Result<(Vec<f64>, Solution), Unsettled> {
         let mut x = b;
         self.factor.condense(&mut x);
-        let joints = Joints { interface: &system.interface, old, damping: None };
+        let joints = Joints { interface: &system.interface, old: &old.joints, damping: None };
         let at_border = &mut x[system.unknowns.border..];
-        let solution = self.settle(at_border, joints, last, last)?;
+        let solution = self.settle(at_border, joints, &Before::of(system, old), system.jumps(&old.q))?;
         at_border.copy_from_slice(&solution.border);
         self.factor.expand(&mut x);
         x.extend(&solution.jumps);
@@ -80,10 +98,59 @@ impl Condensed {
     }
 
     /// Between the sweeps: from the condensed right-hand side at the border to the displacements there that satisfy the
-    /// joints, which move on from the jumps `last` towards the `expected` ones.
-    pub fn settle(&mut self, b: &[f64], joints: Joints, last: &[f64], expected: &[f64]) -> Result<Solution, Unsettled> {
+    /// joints, which move on towards the `expected` jumps.
+    pub fn settle(
+        &mut self,
+        b: &[f64],
+        joints: Joints,
+        before: &Before,
+        expected: &[f64],
+    ) -> Result<Solution, Unsettled> {
+        match self.springs.clone() {
+            None => self.settle_once(b, &joints, before, expected),
+            Some(springs) => self.settle_with_least_motion(&springs, b, &joints, before),
+        }
+    }
+
+    /// K u + r(j) + W (u - u_0) = f with u_0 from before, then from the solution, until W (u - u_0) is nothing.
+    fn settle_with_least_motion(
+        &mut self,
+        springs: &Springs,
+        b: &[f64],
+        joints: &Joints,
+        before: &Before,
+    ) -> Result<Solution, Unsettled> {
+        let (mut anchor, mut expected) = (before.border.to_vec(), before.jumps.to_vec());
+        let (mut iterations, mut pulled_before) = (0, f64::INFINITY);
+        loop {
+            let mut with_springs = b.to_vec();
+            add(&mut with_springs, 1., &springs.forces(&anchor));
+            let found = self.settle_once(&with_springs, joints, before, &expected)?;
+            iterations += found.iterations;
+            let moved: Vec<f64> = found.border.iter().zip(&anchor).map(|(u, u_0)| u - u_0).collect();
+            let forces = springs.forces(&moved);
+            let pulled = norm(&forces);
+            if pulled <= CARRIED * self.contact.options.tolerance * found.largest_force {
+                return Ok(Solution { iterations, ..found });
+            }
+            if pulled > NOT_HELD * pulled_before {
+                let last = found.responses.iter().map(|r| r.status).collect();
+                return Err(Unsettled::Loose { body: springs.most_pulled(&forces), last });
+            }
+            (anchor, expected, pulled_before) = (found.border, found.jumps, pulled);
+        }
+    }
+
+    fn settle_once(
+        &mut self,
+        b: &[f64],
+        joints: &Joints,
+        before: &Before,
+        expected: &[f64],
+    ) -> Result<Solution, Unsettled> {
         let condensate = &self.contact.condensate;
         let free = condensate.jumps(&condensate.displacements(b));
-        self.contact.solve(&Problem { joints, b, free: &free, last, expected })
+        let (last, largest_force) = (before.jumps, before.largest_force);
+        self.contact.solve(&Problem { joints, b, free: &free, last, expected, largest_force })
     }
 }

@@ -12,7 +12,7 @@ use super::joints::{Branches, Joints};
 use super::tresca::FixedPoint;
 use super::unsettled::{Place, Unsettled};
 use crate::model::case::Newton;
-use crate::physics::joint::{JointLaw, Response, Status};
+use crate::physics::joint::{Response, Status};
 use crate::sparse::vector::{add, norm};
 use nalgebra::{Matrix2, Vector2};
 use std::sync::Arc;
@@ -20,9 +20,12 @@ use std::sync::Arc;
 /// Relative residual below which a status may still flip: round-off decides it, and it carries no force.
 const ROUND_OFF: f64 = 1e-13;
 
+/// Most of Newton's steps for the last digits; two do unless the first jumps were larger than the last by 1e10.
+const REFINEMENTS: usize = 5;
+
 /// One step's contact problem.
 pub struct Problem<'a> {
-    pub joints: Joints<'a>,
+    pub joints: &'a Joints<'a>,
     /// forces at the border, without the joints' [N]
     pub b: &'a [f64],
     /// the jumps that they make [m]
@@ -32,6 +35,8 @@ pub struct Problem<'a> {
     /// where they are going [m]: a point that slips stands just on the edge of slip, and only this tells that it goes
     /// on
     pub expected: &'a [f64],
+    /// the largest force of the run so far, where forces are measured against it [N]; 0 with inertia
+    pub largest_force: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -43,19 +48,21 @@ pub struct Solution {
     pub iterations: usize,
     /// the paper's test (19) on the jumps: last correction over the step's increment
     pub displacement_test: f64,
+    /// the largest force of the run so far, this step included [N]; 0 with inertia
+    pub largest_force: f64,
 }
 
 impl Solution {
     fn new(border: Vec<f64>, branches: Branches, iterations: usize, displacement_test: f64) -> Solution {
         let Branches { at: jumps, responses } = branches;
-        Solution { border, jumps, responses, iterations, displacement_test }
+        Solution { border, jumps, responses, iterations, displacement_test, largest_force: 0. }
     }
 }
 
 pub struct Contact {
     pub(super) condensate: Arc<Condensate>,
-    /// no joint of D_0 is stiffer [Pa/m]; 0 where inertia lets the bodies stand by themselves
-    stiffest: f64,
+    /// D_0 of every joint point [Pa/m]; none where inertia lets the bodies stand by themselves
+    closed: Arc<[Matrix2<f64>]>,
     pub(super) options: Newton,
     inverse: Inverse,
 }
@@ -88,17 +95,31 @@ enum Retry {
 }
 
 impl Contact {
-    pub fn new(condensate: Arc<Condensate>, stiffest: f64, options: Newton) -> Contact {
-        Contact { condensate, stiffest, options, inverse: Inverse::new(stiffest > 0.) }
+    /// `closed`: D_0 of every joint point [Pa/m], or none.
+    pub fn new(condensate: Arc<Condensate>, closed: Arc<[Matrix2<f64>]>, options: Newton) -> Contact {
+        let inverse = Inverse::new(!closed.is_empty());
+        Contact { condensate, closed, options, inverse }
     }
 
     /// For other joints on the same bodies.
     pub fn sharing_condensate(&self) -> Contact {
-        Contact::new(self.condensate.clone(), self.stiffest, self.options)
+        Contact::new(self.condensate.clone(), self.closed.clone(), self.options)
+    }
+
+    /// The solution of one step; without inertia with all digits that the displacements have.
+    pub fn solve(&mut self, problem: &Problem) -> Result<Solution, Unsettled> {
+        let solution = self.settled(problem)?;
+        if self.closed.is_empty() {
+            return Ok(solution);
+        }
+        let refined = self.refined(problem, solution);
+        let tractions: Vec<Vector2<f64>> = refined.responses.iter().map(|r| r.traction).collect();
+        let largest_force = self.scale(problem, &tractions, f64::INFINITY);
+        Ok(Solution { largest_force, ..refined })
     }
 
     /// Newton with the statuses inside the loop; where they run in a circle, the fixed point on Tresca's bound.
-    pub fn solve(&mut self, problem: &Problem) -> Result<Solution, Unsettled> {
+    fn settled(&mut self, problem: &Problem) -> Result<Solution, Unsettled> {
         self.newton(problem, problem.expected).or_else(|unsettled| {
             let Some(FixedPoint { jumps, iterations, displacement_test }) = self.fixed_point(problem) else {
                 return Err(unsettled);
@@ -112,6 +133,33 @@ impl Contact {
             })?;
             Ok(Solution { iterations: iterations + nearest.iterations, displacement_test, ..nearest })
         })
+    }
+
+    /// Newton's steps on j - N c, the jumps less those of the displacements, as long as each halves it. Where weak
+    /// springs alone resist a motion, a residual below the tolerance leaves the body far from where they hold it.
+    fn refined(&mut self, problem: &Problem, solution: Solution) -> Solution {
+        let mut best = solution;
+        let mut apart = self.apart(&best.jumps, &best.border);
+        for _ in 0..REFINEMENTS {
+            let missed = self.condensate.forces(&apart);
+            let tangents = self.tangents(&best.responses);
+            let step = self.inverse.solve(&self.condensate.schur, problem.joints.interface, &tangents, &missed);
+            let jumps: Vec<f64> = best.jumps.iter().zip(&step).map(|(j, d)| j - d).collect();
+            let branches = problem.joints.branches(&jumps);
+            let border = self.border(problem, &branches);
+            let still_apart = self.apart(&jumps, &border);
+            if norm(&still_apart) > norm(&apart) / 2. {
+                break;
+            }
+            apart = still_apart;
+            best = Solution { border, jumps, responses: branches.responses, ..best };
+        }
+        best
+    }
+
+    /// j - N c [m].
+    fn apart(&self, jumps: &[f64], border: &[f64]) -> Vec<f64> {
+        jumps.iter().zip(self.condensate.jumps(border)).map(|(jump, made)| jump - made).collect()
     }
 
     /// From the free jumps, on the branches of r that the `expected` ones lie on.
@@ -146,9 +194,9 @@ impl Contact {
                 seen.clear();
             }
             missed_before = missed;
-            let tangents = self.tangents(&problem.joints, &iterate.branches.responses);
+            let tangents = self.tangents(&iterate.branches.responses);
             let step = self.inverse.solve(&self.condensate.schur, problem.joints.interface, &tangents, &iterate.missed);
-            let next = self.after(&problem.joints, &iterate, &tangents, &step);
+            let next = self.after(problem.joints, &iterate, &tangents, &step);
             correction = distance(&next.jumps, if iterations == 0 { problem.last } else { &iterate.jumps });
             iterate = next;
             seen.push(statuses);
@@ -168,11 +216,11 @@ impl Contact {
         Iterate { jumps: jumps.to_vec(), missed, branches, tractions }
     }
 
-    /// What forces are measured against [N]: the joints' own or, where these are not `enough`, those that would close
-    /// the free jumps, if they are larger.
-    fn scale(&self, Problem { joints, free, .. }: &Problem, tractions: &[Vector2<f64>], enough: f64) -> f64 {
-        let own = norm(&joints.interface.forces(tractions.iter().copied()));
-        if own >= enough { own } else { own.max(norm(&self.condensate.forces(free))) }
+    /// What forces are measured against [N]: the largest so far, the joints' own or, where these are not `enough`, those
+    /// that would close the free jumps, if they are larger.
+    fn scale(&self, problem: &Problem, tractions: &[Vector2<f64>], enough: f64) -> f64 {
+        let own = norm(&problem.joints.interface.forces(tractions.iter().copied())).max(problem.largest_force);
+        if own >= enough { own } else { own.max(norm(&self.condensate.forces(problem.free))) }
     }
 
     /// After a step of Newton's, which goes where the lines that it was solved with miss nothing: so what is missed is
@@ -182,10 +230,10 @@ impl Contact {
         let branches = joints.branches(&jumps);
         let on_its_line = |i: usize| {
             let (old, new) = (&before.branches.responses[i], &branches.responses[i]);
-            self.stabilisation() == 0. && old.status == new.status && old.tangent == new.tangent
+            old.status == new.status && old.tangent == new.tangent
         };
         let off_its_line = |(i, point): (usize, &JointPoint)| {
-            let slope = tangents[i] + self.reference(&point.law);
+            let slope = tangents[i] + self.reference(i);
             let on_line = before.tractions[i] - slope * joints.interface.local(point, step);
             (i, branches.responses[i].traction - on_line)
         };
@@ -203,18 +251,17 @@ impl Contact {
 
     /// r - D_0 j [N] of the joints' tractions.
     fn forces_beyond(&self, interface: &Interface, tractions: &[Vector2<f64>], jumps: &[f64]) -> Vec<f64> {
-        if self.stiffest == 0. {
+        if self.closed.is_empty() {
             return interface.forces(tractions.iter().copied());
         }
-        let points = interface.points.iter().zip(tractions);
-        interface.forces(points.map(|(p, traction)| traction - self.reference(&p.law) * interface.local(p, jumps)))
+        let points = interface.points.iter().zip(tractions).zip(self.closed.iter());
+        interface.forces(points.map(|((p, traction), d_0)| traction - d_0 * interface.local(p, jumps)))
     }
 
     /// How far the jumps are from those of the displacements that the joints' forces make, as the force that would
     /// bring them there over the largest force; 0 where round-off leaves them no more digits.
     fn misfit(&self, problem: &Problem, Branches { at, responses }: &Branches, border: &[f64]) -> f64 {
-        let made = self.condensate.jumps(border);
-        let apart: Vec<f64> = made.iter().zip(at).map(|(made, jump)| made - jump).collect();
+        let apart = self.apart(at, border);
         if norm(&apart) <= ROUND_OFF * norm(border) {
             return 0.;
         }
@@ -244,22 +291,13 @@ impl Contact {
     }
 
     /// D - D_0 of every point for Newton's matrix [Pa/m].
-    fn tangents(&self, joints: &Joints, responses: &[Response]) -> Vec<Matrix2<f64>> {
-        let points = responses.iter().zip(&joints.interface.points);
-        points
-            .map(|(r, p)| r.tangent + p.law.closed_stiffness() * self.stabilisation() - self.reference(&p.law))
-            .collect()
+    fn tangents(&self, responses: &[Response]) -> Vec<Matrix2<f64>> {
+        responses.iter().enumerate().map(|(i, r)| r.tangent - self.reference(i)).collect()
     }
 
     /// D_0 of a point [Pa/m].
-    pub(super) fn reference(&self, law: &JointLaw) -> Matrix2<f64> {
-        law.closed_no_stiffer_than(self.stiffest)
-    }
-
-    /// Part of the closed stiffness that every tangent keeps. Without inertia a body that slips all round can turn
-    /// without resistance. Only the way to the solution changes, not the solution: what is missed knows nothing of it.
-    pub(super) fn stabilisation(&self) -> f64 {
-        if self.stiffest > 0. { 1e-9 } else { 0. }
+    pub(super) fn reference(&self, point: usize) -> Matrix2<f64> {
+        self.closed.get(point).copied().unwrap_or_default()
     }
 }
 
@@ -282,7 +320,7 @@ mod tests {
     use crate::model::case::Integration;
     use crate::model::mesh::{Mesh, Shape};
     use crate::model::split::{Joint, Pair};
-    use crate::physics::joint::Friction;
+    use crate::physics::joint::{Friction, JointLaw};
     use crate::solve::interface::JointState;
     use crate::solve::unknowns::Unknowns;
     use crate::sparse::{Orders, Symbolic};
@@ -328,8 +366,9 @@ mod tests {
         let old = [JointState::default(); 2];
         let joints = Joints { interface: &interface, old: &old, damping: None };
         let (free, still) = (condensate.jumps(&condensate.displacements(&b)), [0.; 4]);
-        let problem = Problem { joints, b: &b, free: &free, last: &still, expected: &still };
-        let mut contact = Contact::new(condensate, 0., TOLERANCE);
+        let problem =
+            Problem { joints: &joints, b: &b, free: &free, last: &still, expected: &still, largest_force: 0. };
+        let mut contact = Contact::new(condensate, [].into(), TOLERANCE);
         worn.map(|worn| {
             worn.into_iter().for_each(|by| contact.inverse.wear(by));
             let solution = contact.newton(&problem, &still).expect("no statuses run in a circle here");

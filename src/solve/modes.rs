@@ -20,7 +20,7 @@ pub struct NaturalMode {
 /// None is skipped: those below sigma, just below the last one, are counted by the negative pivots of K - sigma M
 /// (Sylvester). Where pivots vanish sigma lies up to 10 % below the last, and the count says nothing of those between.
 pub fn natural_modes(system: &System, symbolic: &Symbolic, count: usize) -> Result<Vec<NaturalMode>> {
-    let stiffness = system.with_closed_joints(f64::INFINITY);
+    let stiffness = system.with_joints(&system.closed_joints());
     let shift = rigid_shift(&stiffness, &system.mass);
     let factor = symbolic
         .factor(&combine(&[(1., &stiffness), (shift, &system.mass)]))

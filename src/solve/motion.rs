@@ -146,7 +146,7 @@ mod tests {
     fn cases() -> [State; 3] {
         std::array::from_fn(|k| {
             let [q, v, a] = [0, 1, 2].map(|m| (0..COUNT).map(|i| motion(k, i)[m]).collect());
-            State { time: 0., q, v, a, joints: vec![], free_field: vec![] }
+            State { time: 0., q, v, a, joints: vec![], free_field: vec![], largest_force: 0. }
         })
     }
 

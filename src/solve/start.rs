@@ -25,8 +25,9 @@ pub fn under_gravity(
     let mut in_parts = |parts: usize| {
         (1..=parts).try_fold(rest.clone(), |old, part| {
             let load = gravity.iter().map(|f| f * part as f64 / parts as f64).collect();
-            let (q, settled) = condensed.solve(system, load, system.jumps(&old.q), &old.joints)?;
-            Ok(State { q, joints: settled.responses.iter().map(JointState::from).collect(), ..old })
+            let (q, settled) = condensed.solve(system, load, &old)?;
+            let joints = settled.responses.iter().map(JointState::from).collect();
+            Ok(State { q, joints, largest_force: settled.largest_force, ..old })
         })
     };
     let mut found = in_parts(PARTS[0]);
@@ -52,7 +53,8 @@ pub fn released(system: &System, held: &System, state: &State) -> (State, Vec<f6
     for i in system.unknowns.freed_from(&held.unknowns) {
         reactions[i] = unbalanced[i];
     }
-    (State { q, joints: state.joints.clone(), ..State::at_rest(system) }, reactions)
+    let largest_force = state.largest_force;
+    (State { q, joints: state.joints.clone(), largest_force, ..State::at_rest(system) }, reactions)
 }
 
 /// Adds displacement and velocity of the nodes [m], [m/s]; joints answer to the displaced state, columns beyond the
@@ -70,7 +72,7 @@ pub fn with_motion(system: &System, state: State, displacement: &[[f64; 2]], vel
     let columns = system.columns.iter().zip(state.free_field);
     let free_field =
         columns.map(|(c, state)| with_motion(&c.system, state, &c.own(displacement), &c.own(velocity))).collect();
-    State { time: state.time, v: add(&state.v, velocity), a: state.a, joints, q, free_field }
+    State { v: add(&state.v, velocity), joints, q, free_field, ..state }
 }
 
 /// M a = f(0) - C v - K u - r(j), or a = 0: a blast has p(0) != 0.

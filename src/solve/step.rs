@@ -1,6 +1,6 @@
 //! One step in time, of one system or of several that share their factor.
 
-use super::condensed::Condensed;
+use super::condensed::{Before, Condensed};
 use super::contact::Solution;
 use super::energy::Forms;
 use super::free_field::Column;
@@ -107,7 +107,7 @@ impl Stepper {
         let joints =
             Joints { interface: &system.interface, old: &old.joints, damping: self.law.joint_damping(system, old) };
         let expected = self.law.expected_jumps(system, old);
-        self.condensed.settle(border, joints, system.jumps(&old.q), &expected)
+        self.condensed.settle(border, joints, &Before::of(system, old), &expected)
     }
 
     /// The columns beyond free-field sides, which know nothing of the model, one step later.
@@ -174,11 +174,19 @@ fn step_lanes<const K: usize>(
     let stepped = cases.zip(settled).zip(free_fields).zip(motions).zip(onward);
     stepped
         .map(|((((k, settled), free_field), motion), forces)| {
-            let Solution { jumps, responses, iterations, displacement_test, .. } = settled?;
+            let Solution { jumps, responses, iterations, displacement_test, largest_force, .. } = settled?;
             let [q, v, a] = motion.with_jumps(systems[k], &jumps)?;
             let joints = responses.iter().map(JointState::from).collect();
             Ok(Step {
-                state: State { time: old[k].state.time + law.dt(), q, v, a, joints, free_field: free_field? },
+                state: State {
+                    time: old[k].state.time + law.dt(),
+                    q,
+                    v,
+                    a,
+                    joints,
+                    free_field: free_field?,
+                    largest_force,
+                },
                 iterations,
                 displacement_test,
                 forms: Forms { strain: strain[k], kinetic: kinetic[k], drained: drained[k] },
@@ -275,7 +283,7 @@ mod tests {
         let factor = Symbolic::bordered(&a, n - 5).factor(&a).expect("positive definite");
         let matrices = Interleaved::new([&a, &a], [0.3, 0.02], None);
         let [q, v, a] = [1, 2, 3].map(|seed| random(n, seed));
-        let state = State { time: 0., q, v, a, joints: vec![], free_field: vec![] };
+        let state = State { time: 0., q, v, a, joints: vec![], free_field: vec![], largest_force: 0. };
         let law = Law::new(Scheme::Dynamic(Integrator::default()), 0.1);
         let gone_back = |size: usize| {
             let mut x: Vec<[f64; 1]> = random(n, 4).into_iter().map(|x| [x]).collect();

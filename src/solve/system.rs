@@ -3,6 +3,7 @@
 use super::assembly;
 use super::free_field::Column;
 use super::interface::{Interface, JointState};
+use super::least_motion::Loose;
 use super::unknowns::Unknowns;
 use crate::Result;
 use crate::model::moving_front::MovingFront;
@@ -41,6 +42,8 @@ pub struct System {
     pub reactions: Option<Vec<f64>>,
     /// the ground beyond free-field sides
     pub columns: Vec<Column>,
+    /// the bodies that joints alone hold
+    pub loose: Arc<[Loose]>,
     /// (unknown, N per unit of the pulse) and history
     loads: Vec<(Vec<(usize, f64)>, Pulse)>,
     /// loads that do not act everywhere at once
@@ -68,6 +71,9 @@ pub struct State {
     pub joints: Vec<JointState>,
     /// of each column beyond a free-field side
     pub free_field: Vec<State>,
+    /// the largest force at the joints in the load steps so far, which residuals without inertia are measured against
+    /// [N]
+    pub largest_force: f64,
 }
 
 impl System {
@@ -89,6 +95,7 @@ impl System {
             gravity: (model.gravity > 0.).then(|| assembly::gravity(model, &unknowns).into()),
             reactions: None,
             columns: columns(model, &unknowns, orders)?,
+            loose: Loose::all(model, &unknowns),
             loads: loads(model, &unknowns),
             fronts: fronts(model),
             unknowns: unknowns.into(),
@@ -114,6 +121,7 @@ impl System {
             interface: interface(model, &self.unknowns),
             gravity: self.gravity.clone(),
             reactions: None,
+            loose: self.loose.clone(),
             loads: loads(model, &self.unknowns),
             fronts: fronts(model),
         })
@@ -209,11 +217,11 @@ impl System {
         &q[..self.unknowns.count]
     }
 
-    /// K with every joint closed and sticking, and at most as stiff as `stiffest` [Pa/m].
-    pub fn with_closed_joints(&self, stiffest: f64) -> CsMat<f64> {
+    /// K with joints of these stiffnesses [Pa/m], one for each point.
+    pub fn with_joints(&self, stiffnesses: &[Matrix2<f64>]) -> CsMat<f64> {
         let mut closed = CsMat::clone(&self.stiffness);
-        for point in &self.interface.points {
-            self.interface.tangent(point, &point.law.closed_no_stiffer_than(stiffest), |i, j, value| {
+        for (point, stiffness) in self.interface.points.iter().zip(stiffnesses) {
+            self.interface.tangent(point, stiffness, |i, j, value| {
                 for (row, sign_i) in self.unknowns.sides.of(i) {
                     for (column, sign_j) in self.unknowns.sides.of(j) {
                         let entry = closed.get_mut(row, column).expect("the pattern holds every joint element");
@@ -225,19 +233,32 @@ impl System {
         closed
     }
 
-    /// Stiffness of springs between the bodies that is as large on the diagonal of K as K's own, on average [Pa/m].
-    pub fn stiffness_at_joints(&self) -> f64 {
-        let rows = self.stiffness.outer_iterator().enumerate().skip(self.unknowns.border);
-        let of_bodies: f64 = rows.filter_map(|(i, row)| row.get(i).copied()).sum();
-        let mut of_unit_springs = 0.;
-        for point in &self.interface.points {
-            self.interface.tangent(point, &Matrix2::identity(), |i, j, value| {
+    /// Stiffness of springs at each joint point that is as large on the diagonal of K as K's own, on its softer side
+    /// [Pa/m].
+    pub fn stiffness_at_joints(&self) -> Vec<f64> {
+        let interface = &self.interface;
+        let mut of_unit_springs = vec![0.; self.unknowns.count];
+        for point in &interface.points {
+            interface.tangent(point, &Matrix2::identity(), |i, j, value| {
                 if i == j {
-                    of_unit_springs += self.unknowns.sides.of(i).count() as f64 * value;
+                    self.unknowns.sides.of(i).for_each(|(row, _)| of_unit_springs[row] += value);
                 }
             });
         }
-        of_bodies / of_unit_springs
+        let of_row = |row: usize| self.stiffness.get(row, row).copied().unwrap_or(0.) / of_unit_springs[row];
+        let rows = |point| interface.places(point).flat_map(|place| self.unknowns.sides.of(place)).map(|(row, _)| row);
+        interface.points.iter().map(|point| rows(point).map(of_row).fold(f64::INFINITY, f64::min)).collect()
+    }
+
+    /// Every joint closed and sticking [Pa/m].
+    pub fn closed_joints(&self) -> Vec<Matrix2<f64>> {
+        self.interface.points.iter().map(|point| point.law.closed_stiffness()).collect()
+    }
+
+    /// The same, but none stiffer than the bodies beside it [Pa/m].
+    pub fn closed_joints_as_stiff_as_bodies(&self) -> Vec<Matrix2<f64>> {
+        let points = self.interface.points.iter().zip(self.stiffness_at_joints());
+        points.map(|(point, stiffest)| point.law.closed_no_stiffer_than(stiffest)).collect()
     }
 }
 
@@ -275,6 +296,7 @@ impl State {
             a: zero,
             joints: vec![JointState::default(); system.interface.points.len()],
             free_field: system.columns.iter().map(|column| State::at_rest(&column.system)).collect(),
+            largest_force: 0.,
         }
     }
 }

@@ -16,8 +16,8 @@ struct JumpEquations<'a> {
     joints: &'a Joints<'a>,
     schur: Mat<f64>,
     b: Vec<f64>,
-    /// part of the closed stiffness that every tangent keeps
-    stabilisation: f64,
+    /// of the run so far [N]
+    largest_force: f64,
 }
 
 /// A fixed point: no statuses that agree with the jumps to the last digit, but jumps that meet the tolerance.
@@ -52,15 +52,15 @@ impl Contact {
         let mut schur = self.condensate.schur.clone();
         let b = self.condensate.forces(problem.free);
         let interface = problem.joints.interface;
-        for point in &interface.points {
-            interface.tangent(point, &self.reference(&point.law), |i, j, value| schur[(i, j)] -= value);
+        for (number, point) in interface.points.iter().enumerate() {
+            interface.tangent(point, &self.reference(number), |i, j, value| schur[(i, j)] -= value);
         }
-        JumpEquations { joints: &problem.joints, schur, b, stabilisation: self.stabilisation() }
+        JumpEquations { joints: problem.joints, schur, b, largest_force: problem.largest_force }
     }
 
     /// Minimises 1/2 j'S j - b'j + sum area psi(j), convex and piecewise quadratic for fixed bounds: Newton with an
-    /// exact line search, also beyond the full step: along what slips freely the tangent has nothing but its
-    /// stabilisation, which says the direction and not the length.
+    /// exact line search, also beyond the full step: along what slips freely the tangent has nothing but the
+    /// springs of least motion, which say the direction and not the length.
     fn minimise(&self, equations: &JumpEquations, start: &[f64], bounds: &[f64]) -> Option<Vec<f64>> {
         let mut jumps = start.to_vec();
         for _ in 0..10 * self.options.max_iterations {
@@ -86,7 +86,7 @@ struct Residual {
     responses: Vec<Response>,
     /// S j + r - b [N]
     force: Vec<f64>,
-    /// what it is measured against, max(|b|, |S j|, |r|) [N]
+    /// what it is measured against, max(|b|, |S j|, |r|) or the largest force so far [N]
     scale: f64,
 }
 
@@ -102,15 +102,14 @@ impl JumpEquations<'_> {
         let joint = self.joints.interface.forces(responses.iter().map(|r| r.traction));
         let linear = dense_times(&self.schur, jumps);
         let force = (0..jumps.len()).map(|i| linear[i] + joint[i] - self.b[i]).collect();
-        let scale = norm(&self.b).max(norm(&linear)).max(norm(&joint));
+        let scale = norm(&self.b).max(norm(&linear)).max(norm(&joint)).max(self.largest_force);
         Residual { responses, force, scale }
     }
 
     fn tangent(&self, responses: &[Response]) -> Mat<f64> {
         let mut tangent = self.schur.clone();
         for (point, r) in self.joints.interface.points.iter().zip(responses) {
-            let d = r.tangent + point.law.closed_stiffness() * self.stabilisation;
-            self.joints.interface.tangent(point, &d, |i, j, value| tangent[(i, j)] += value);
+            self.joints.interface.tangent(point, &r.tangent, |i, j, value| tangent[(i, j)] += value);
         }
         tangent
     }

@@ -8,6 +8,8 @@ pub enum Unsettled {
     Statuses { changing: Vec<usize>, last: Vec<Status> },
     /// the statuses stand, but the residual does not fall: what it stays at, and the joint point where it is largest
     Residual { relative: f64, largest: Option<usize>, last: Vec<Status> },
+    /// a body, by its number, goes on moving whatever the joints do, and how they stood last
+    Loose { body: usize, last: Vec<Status> },
     /// numbers beyond floating point
     Overflow(Place),
     /// joints have made more energy than is tolerated [J]

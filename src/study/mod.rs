@@ -9,6 +9,7 @@ mod cost;
 mod curve;
 mod damping;
 pub mod domain;
+mod equilibria;
 mod finished;
 pub mod gmsh;
 mod history;

@@ -1,7 +1,9 @@
 //! Watches a run and writes what it sees: histories, rings, frames, the status file, at the end the summary.
 
+use super::equilibria::Equilibria;
 use super::prepare::Prepared;
 use crate::Result;
+use crate::model::case::Analysis;
 use crate::number::short_to;
 use crate::results::folder::{Folder, STATUS};
 use crate::results::grid::Grid;
@@ -28,6 +30,8 @@ pub struct Recorder<'a> {
     status: Lines,
     ledger: Ledger,
     contact: ContactRecord,
+    /// where states have no inertia
+    equilibria: Option<Equilibria>,
     steps: usize,
     iterations: usize,
     started: Instant,
@@ -64,6 +68,7 @@ impl<'a> Recorder<'a> {
             status,
             ledger: start.ledger.clone(),
             contact: ContactRecord::default(),
+            equilibria: Equilibria::new(model, system).map(|e| e.after(system, &State::at_rest(system), state)),
             steps: 0,
             iterations: 0,
             started: Instant::now(),
@@ -85,6 +90,9 @@ impl<'a> Recorder<'a> {
             let (old, new) = (last.state(), step.state());
             let points = open_and_slipping(&system.interface, new, system.jumps(&new.q));
             self.contact = self.contact.after(&system.interface, old, new, system.jumps(&new.q), points);
+            if self.prepared.model.analysis == Analysis::Static {
+                self.equilibria = self.equilibria.take().map(|e| e.after(system, old, new));
+            }
             self.iterations += step.step.iterations;
             self.steps += 1;
             self.write_status(number, old, &step, points);
@@ -177,6 +185,7 @@ impl<'a> Recorder<'a> {
                 .cloned()
                 .chain(self.ledger.warning(model.analysis))
                 .chain(self.ledger.unclosed().filter(|_| model.closes_its_ledger()))
+                .chain(self.equilibria.iter().flat_map(Equilibria::warnings))
                 .chain(snapshots.motion.warnings())
                 .collect(),
         })

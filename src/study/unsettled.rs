@@ -72,7 +72,11 @@ fn still(prepared: &Prepared, unsettled: &Unsettled) -> (String, String) {
 
 /// A sentence for every body whose joints all slip or stand open.
 fn moving_bodies(prepared: &Prepared, unsettled: &Unsettled) -> Vec<String> {
-    let (Unsettled::Statuses { last, .. } | Unsettled::Residual { last, .. }) = unsettled else { return vec![] };
+    let (Unsettled::Statuses { last, .. } | Unsettled::Residual { last, .. } | Unsettled::Loose { last, .. }) =
+        unsettled
+    else {
+        return vec![];
+    };
     let model = &prepared.model;
     let sentence = |body: &String| {
         let of_body = |&i: &usize| seams(prepared, i).any(|seam| seam.body == *body);
@@ -91,7 +95,14 @@ fn moving_bodies(prepared: &Prepared, unsettled: &Unsettled) -> Vec<String> {
             )),
         }
     };
-    model.bodies.iter().filter_map(sentence).collect()
+    let sentences: Vec<String> = model.bodies.iter().filter_map(sentence).collect();
+    match unsettled {
+        Unsettled::Loose { body, .. } if sentences.is_empty() => {
+            let name = &prepared.system.loose[*body].name;
+            vec![format!("the joints do not hold {name}, which tips or slides although some of them stick")]
+        }
+        _ => sentences,
+    }
 }
 
 fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
@@ -114,6 +125,7 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
             short_to(2, 100. * made / supplied),
             prepared.model.time.energy.share
         ),
+        Unsettled::Loose { body, .. } => format!("the joints do not hold {}", prepared.system.loose[*body].name),
         Unsettled::Overflow(first) => {
             let at = match *first {
                 Place::JointPoint(i) => format!(", first at {}", places(prepared, &[i])),
