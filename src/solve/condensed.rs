@@ -3,10 +3,11 @@
 //! them, one backward sweep.
 
 use super::condensate::Condensate;
-use super::contact::{Contact, Problem, Solution};
+use super::contact::{Contact, Problem, Solution, distance, ratio};
 use super::joints::Joints;
 use super::least_motion::Springs;
 use super::system::{State, System};
+use super::tresca::SWEEPS;
 use super::unsettled::Unsettled;
 use crate::model::case::Newton;
 use crate::sparse::vector::{add, norm};
@@ -38,8 +39,12 @@ impl<'a> Before<'a> {
     }
 }
 
-/// A body whose springs carry more than this share of what they did is not held by anything else.
-const NOT_HELD: f64 = 0.9;
+/// A body whose springs carry more than this share of what they carried a round before is not held: what else holds it
+/// is softer than a thousandth of the springs.
+const NOT_HELD: f64 = 0.999;
+
+/// A body that has not come to rest after so many rounds slides or falls.
+const ROUNDS: usize = 50;
 
 /// Of `newton.tolerance`, for what the springs of least motion may carry of the largest force.
 const CARRIED: f64 = 1e-3;
@@ -112,7 +117,8 @@ impl Condensed {
         }
     }
 
-    /// K u + r(j) + W (u - u_0) = f with u_0 from before, then from the solution, until W (u - u_0) is nothing.
+    /// K u + r(j) + W (u - u_0) = f with u_0 from before, then from the solution, until W (u - u_0) is nothing. Where
+    /// soft springs hold a body it falls by a factor each round, and u_0 goes to the limit of that series.
     fn settle_with_least_motion(
         &mut self,
         springs: &Springs,
@@ -120,25 +126,35 @@ impl Condensed {
         joints: &Joints,
         before: &Before,
     ) -> Result<Solution, Unsettled> {
+        let tolerance = self.contact.options.tolerance;
         let (mut anchor, mut expected) = (before.border.to_vec(), before.jumps.to_vec());
-        let (mut iterations, mut pulled_before) = (0, f64::INFINITY);
-        loop {
-            let mut with_springs = b.to_vec();
-            add(&mut with_springs, 1., &springs.forces(&anchor));
-            let found = self.settle_once(&with_springs, joints, before, &expected)?;
+        let (mut iterations, mut carried_before) = (0, f64::INFINITY);
+        for round in 1.. {
+            let mut pulled = b.to_vec();
+            add(&mut pulled, 1., &springs.forces(&anchor));
+            let found = self.settle_once(&pulled, joints, before, &expected)?;
             iterations += found.iterations;
+            let displacement_test = match round {
+                1 => found.displacement_test,
+                _ => ratio(distance(&found.jumps, &expected), distance(&found.jumps, before.jumps)),
+            };
             let moved: Vec<f64> = found.border.iter().zip(&anchor).map(|(u, u_0)| u - u_0).collect();
             let forces = springs.forces(&moved);
-            let pulled = norm(&forces);
-            if pulled <= CARRIED * self.contact.options.tolerance * found.largest_force {
-                return Ok(Solution { iterations, ..found });
+            let carried = norm(&forces);
+            let falls = carried / carried_before;
+            let at_round_off = falls > 0.5 && carried <= SWEEPS.max(tolerance) * found.largest_force;
+            if carried <= CARRIED * tolerance * found.largest_force || at_round_off {
+                return Ok(Solution { iterations, displacement_test, ..found });
             }
-            if pulled > NOT_HELD * pulled_before {
+            if round > 1 && falls > NOT_HELD || round > ROUNDS {
                 let last = found.responses.iter().map(|r| r.status).collect();
                 return Err(Unsettled::Loose { body: springs.most_pulled(&forces), last });
             }
-            (anchor, expected, pulled_before) = (found.border, found.jumps, pulled);
+            let further = if round > 1 && falls < 1. { falls / (1. - falls) } else { 0. };
+            anchor = found.border.iter().zip(&moved).map(|(u, moved)| u + further * moved).collect();
+            (expected, carried_before) = (found.jumps, carried);
         }
+        unreachable!("the rounds are counted")
     }
 
     fn settle_once(

@@ -10,7 +10,7 @@ use super::interface::{Interface, JointPoint};
 use super::inverse::Inverse;
 use super::joints::{Branches, Joints};
 use super::tresca::FixedPoint;
-use super::unsettled::{Place, Unsettled};
+use super::unsettled::Unsettled;
 use crate::model::case::Newton;
 use crate::physics::joint::{Response, Status};
 use crate::sparse::vector::{add, norm};
@@ -19,9 +19,6 @@ use std::sync::Arc;
 
 /// Relative residual below which a status may still flip: round-off decides it, and it carries no force.
 const ROUND_OFF: f64 = 1e-13;
-
-/// Most of Newton's steps for the last digits; two do unless the first jumps were larger than the last by 1e10.
-const REFINEMENTS: usize = 5;
 
 /// One step's contact problem.
 pub struct Problem<'a> {
@@ -64,17 +61,17 @@ pub struct Contact {
     /// D_0 of every joint point [Pa/m]; none where inertia lets the bodies stand by themselves
     closed: Arc<[Matrix2<f64>]>,
     pub(super) options: Newton,
-    inverse: Inverse,
+    pub(super) inverse: Inverse,
 }
 
 /// Where Newton stands.
-struct Iterate {
+pub(super) struct Iterate {
     jumps: Vec<f64>,
-    branches: Branches,
+    pub(super) branches: Branches,
     /// at the jumps: the joints' answers, at the start what the lines through the branches say [Pa]
-    tractions: Vec<Vector2<f64>>,
+    pub(super) tractions: Vec<Vector2<f64>>,
     /// S (j - j_0) + r - D_0 j [N]
-    missed: Vec<f64>,
+    pub(super) missed: Vec<f64>,
 }
 
 impl Iterate {
@@ -135,33 +132,6 @@ impl Contact {
         })
     }
 
-    /// Newton's steps on j - N c, the jumps less those of the displacements, as long as each halves it. Where weak
-    /// springs alone resist a motion, a residual below the tolerance leaves the body far from where they hold it.
-    fn refined(&mut self, problem: &Problem, solution: Solution) -> Solution {
-        let mut best = solution;
-        let mut apart = self.apart(&best.jumps, &best.border);
-        for _ in 0..REFINEMENTS {
-            let missed = self.condensate.forces(&apart);
-            let tangents = self.tangents(&best.responses);
-            let step = self.inverse.solve(&self.condensate.schur, problem.joints.interface, &tangents, &missed);
-            let jumps: Vec<f64> = best.jumps.iter().zip(&step).map(|(j, d)| j - d).collect();
-            let branches = problem.joints.branches(&jumps);
-            let border = self.border(problem, &branches);
-            let still_apart = self.apart(&jumps, &border);
-            if norm(&still_apart) > norm(&apart) / 2. {
-                break;
-            }
-            apart = still_apart;
-            best = Solution { border, jumps, responses: branches.responses, ..best };
-        }
-        best
-    }
-
-    /// j - N c [m].
-    fn apart(&self, jumps: &[f64], border: &[f64]) -> Vec<f64> {
-        jumps.iter().zip(self.condensate.jumps(border)).map(|(jump, made)| jump - made).collect()
-    }
-
     /// From the free jumps, on the branches of r that the `expected` ones lie on.
     fn newton(&mut self, problem: &Problem, expected: &[f64]) -> Result<Solution, Unsettled> {
         let mut iterate = self.start(problem, problem.free, problem.joints.branches(expected));
@@ -171,7 +141,9 @@ impl Contact {
         for iterations in 0..=self.options.max_iterations {
             let (statuses, missed) = (iterate.branches.statuses(), norm(&iterate.missed));
             let settled = seen.last() == Some(&statuses);
-            let tolerance = if settled { self.options.tolerance } else { ROUND_OFF };
+            // Statuses that have run in a circle once stand on the edge between two, and the law's own residual decides.
+            let by_residual = settled || retry != Retry::FromHere;
+            let tolerance = if by_residual { self.options.tolerance } else { ROUND_OFF };
             let least = missed / tolerance;
             if iterate.is_answered() && (missed == 0. || least <= self.scale(problem, &iterate.tractions, least)) {
                 let border = self.border(problem, &iterate.branches);
@@ -218,7 +190,7 @@ impl Contact {
 
     /// What forces are measured against [N]: the largest so far, the joints' own or, where these are not `enough`, those
     /// that would close the free jumps, if they are larger.
-    fn scale(&self, problem: &Problem, tractions: &[Vector2<f64>], enough: f64) -> f64 {
+    pub(super) fn scale(&self, problem: &Problem, tractions: &[Vector2<f64>], enough: f64) -> f64 {
         let own = norm(&problem.joints.interface.forces(tractions.iter().copied())).max(problem.largest_force);
         if own >= enough { own } else { own.max(norm(&self.condensate.forces(problem.free))) }
     }
@@ -243,7 +215,11 @@ impl Contact {
     }
 
     /// The displacements of the border that the joints' forces make [m].
-    fn border(&self, Problem { joints, b, .. }: &Problem, Branches { at, responses }: &Branches) -> Vec<f64> {
+    pub(super) fn border(
+        &self,
+        Problem { joints, b, .. }: &Problem,
+        Branches { at, responses }: &Branches,
+    ) -> Vec<f64> {
         let tractions: Vec<Vector2<f64>> = responses.iter().map(|r| r.traction).collect();
         let forces = self.forces_beyond(joints.interface, &tractions, at);
         self.condensate.displacements(&self.condensate.pulled(b, &forces))
@@ -260,7 +236,7 @@ impl Contact {
 
     /// How far the jumps are from those of the displacements that the joints' forces make, as the force that would
     /// bring them there over the largest force; 0 where round-off leaves them no more digits.
-    fn misfit(&self, problem: &Problem, Branches { at, responses }: &Branches, border: &[f64]) -> f64 {
+    pub(super) fn misfit(&self, problem: &Problem, Branches { at, responses }: &Branches, border: &[f64]) -> f64 {
         let apart = self.apart(at, border);
         if norm(&apart) <= ROUND_OFF * norm(border) {
             return 0.;
@@ -272,26 +248,8 @@ impl Contact {
         if least <= self.options.tolerance { least } else { norm(&self.condensate.forces(&apart)) / scale }
     }
 
-    fn unsettled(&self, problem: &Problem, iterate: &Iterate, before: Option<&Vec<Status>>) -> Unsettled {
-        let Iterate { missed, branches, tractions, .. } = iterate;
-        let interface = problem.joints.interface;
-        let forces = (0..missed.len()).filter_map(|i| Some((missed[i].abs(), interface.point_of(i)?)));
-        // what is not a number is the largest of all
-        let largest = forces.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point);
-        let left = ratio(norm(missed), self.scale(problem, tractions, f64::INFINITY));
-        if !left.is_finite() {
-            return Unsettled::Overflow(largest.map_or(Place::Matrix, Place::JointPoint));
-        }
-        let relative = left.max(self.misfit(problem, branches, &self.border(problem, branches)));
-        let last = branches.statuses();
-        match before.map(|before| differing(before, &last)) {
-            Some(changing) if !changing.is_empty() => Unsettled::Statuses { changing, last },
-            _ => Unsettled::Residual { relative, largest, last },
-        }
-    }
-
     /// D - D_0 of every point for Newton's matrix [Pa/m].
-    fn tangents(&self, responses: &[Response]) -> Vec<Matrix2<f64>> {
+    pub(super) fn tangents(&self, responses: &[Response]) -> Vec<Matrix2<f64>> {
         responses.iter().enumerate().map(|(i, r)| r.tangent - self.reference(i)).collect()
     }
 
@@ -299,10 +257,6 @@ impl Contact {
     pub(super) fn reference(&self, point: usize) -> Matrix2<f64> {
         self.closed.get(point).copied().unwrap_or_default()
     }
-}
-
-fn differing(a: &[Status], b: &[Status]) -> Vec<usize> {
-    (0..a.len()).filter(|&i| a[i] != b[i]).collect()
 }
 
 pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {

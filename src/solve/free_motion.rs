@@ -1,5 +1,6 @@
 //! Motions that no joint resists: where a body has one, equilibrium without inertia is not unique.
 
+use super::contact::ratio;
 use super::least_motion::{Loose, SHARE, Way};
 use super::system::{State, System};
 use crate::physics::joint::Friction;
@@ -61,11 +62,10 @@ impl FreeMotions {
         FreeMotions { bodies: system.loose.clone(), motions, seen, closed, stiffness }
     }
 
-    /// Those that the joints of a state leave, by body: eigenvalues below [`SHARE`] of A = sum area g' D g over the
-    /// joints that touch, in proportion to its diagonal where all are closed and stick. What has friction sticks here
+    /// Those that the joints leave, by body: eigenvalues below [`SHARE`] of A = sum area g' D g over the
+    /// joint points that touch, in proportion to its diagonal where all are closed and stick. What has friction sticks here
     /// too: a joint that slips resists the way back.
-    pub fn of(&self, system: &System, state: &State) -> Vec<(&Loose, Free)> {
-        let touches = self.touching(system, state);
+    pub fn of(&self, touches: &[bool]) -> Vec<(&Loose, Free)> {
         let touched: Vec<bool> =
             (0..self.bodies.len()).map(|body| self.points_of(body).any(|point| touches[point])).collect();
         let nowhere = (0..self.bodies.len()).filter(|&body| !touched[body] && self.points_of(body).next().is_some());
@@ -74,7 +74,7 @@ impl FreeMotions {
         if !held.is_empty() {
             let whole = self.resistance(&|point| self.closed[point][0]);
             let left = self.resistance(&|point| if touches[point] { self.closed[point][1] } else { Matrix2::zeros() });
-            let scaled = |i: usize, j: usize| left[(i, j)] / (whole[(i, i)] * whole[(j, j)]).sqrt();
+            let scaled = |i: usize, j: usize| ratio(left[(i, j)], (whole[(i, i)] * whole[(j, j)]).sqrt());
             let eigen = DMatrix::from_fn(held.len(), held.len(), |i, j| scaled(held[i], held[j])).symmetric_eigen();
             let unresisted = (0..held.len()).filter(|&k| eigen.eigenvalues[k] < SHARE);
             free.extend(
@@ -88,7 +88,8 @@ impl FreeMotions {
         free.into_iter().map(|(body, free)| (&self.bodies[body], free)).collect()
     }
 
-    fn touching(&self, system: &System, state: &State) -> Vec<bool> {
+    /// Which joint points touch in a state.
+    pub fn touching(&self, system: &System, state: &State) -> Vec<bool> {
         let at_most = TOUCHES * state.largest_force / self.stiffness;
         let jumps = system.jumps(&state.q);
         let opening = |point| system.interface.local(point, jumps)[1] + point.law.gap;

@@ -17,6 +17,7 @@ pub mod march;
 pub mod modes;
 mod motion;
 pub mod newmark;
+mod refinement;
 pub mod start;
 pub mod step;
 pub mod system;

@@ -9,7 +9,13 @@ use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 
 /// Relative imbalance that the sweeps' round-off may leave in b, where stiff closed joints make S of small differences.
-const SWEEPS: f64 = 1e-9;
+pub(super) const SWEEPS: f64 = 1e-9;
+
+/// A residual that is more than this of the one before falls too slowly.
+const SLOW: f64 = 0.9;
+
+/// Least share of the way to f p that the bounds go.
+const LEAST_SHARE: f64 = 1. / 16.;
 
 /// S j + r(j) = b, what is left of the equations when all but the jumps is eliminated.
 struct JumpEquations<'a> {
@@ -30,20 +36,28 @@ pub struct FixedPoint {
 }
 
 impl Contact {
-    /// Outer loop on the bound f p; the inner problem with a fixed bound is convex and always solved.
+    /// Outer loop on the bound f p; the inner problem with a fixed bound is convex and always solved. With much friction
+    /// the bounds swing to and fro: where the residual hardly falls they go half as far as before.
     pub(super) fn fixed_point(&self, problem: &Problem) -> Option<FixedPoint> {
         let equations = self.equations(problem);
         let mut jumps = problem.last.to_vec();
         let mut bounds = problem.joints.bounds(&jumps);
+        let (mut share, mut left_before) = (1., f64::INFINITY);
         for iterations in 1..=10 * self.options.max_iterations {
             let next = self.minimise(&equations, &jumps, &bounds)?;
             let correction = distance(&next, &jumps);
             jumps = next;
-            if equations.residual(&jumps, None).relative() <= self.options.tolerance {
+            let left = equations.residual(&jumps, None).relative();
+            if left <= self.options.tolerance {
                 let displacement_test = ratio(correction, distance(&jumps, problem.last));
                 return Some(FixedPoint { jumps, iterations, displacement_test });
             }
-            bounds = problem.joints.bounds(&jumps);
+            if left > SLOW * left_before {
+                share = f64::max(share / 2., LEAST_SHARE);
+            }
+            left_before = left;
+            let next = problem.joints.bounds(&jumps);
+            bounds.iter_mut().zip(next).for_each(|(bound, next)| *bound += share * (next - *bound));
         }
         None
     }
@@ -63,12 +77,15 @@ impl Contact {
     /// springs of least motion, which say the direction and not the length.
     fn minimise(&self, equations: &JumpEquations, start: &[f64], bounds: &[f64]) -> Option<Vec<f64>> {
         let mut jumps = start.to_vec();
+        let mut before = f64::INFINITY;
         for _ in 0..10 * self.options.max_iterations {
             let residual = equations.residual(&jumps, Some(bounds));
             let relative = residual.relative();
-            if relative <= self.options.tolerance / 10. {
+            let at_round_off = relative <= self.options.tolerance && relative >= before / 2.;
+            if relative <= self.options.tolerance / 10. || at_round_off {
                 return Some(jumps);
             }
+            before = relative;
             let step = solve_dense(&equations.tangent(&residual.responses).partial_piv_lu(), residual.force);
             let moved = |alpha: f64| -> Vec<f64> { jumps.iter().zip(&step).map(|(j, d)| j - alpha * d).collect() };
             let slope = |alpha: f64| -dot(&equations.residual(&moved(alpha), Some(bounds)).force, &step);

@@ -8,12 +8,17 @@ use crate::solve::free_motion::{Free, FreeMotions};
 use crate::solve::least_motion::Way;
 use crate::solve::system::{State, System};
 
+/// Share of the largest force of the run below which normal forces are what a load that has ended leaves.
+const UNLOADED: f64 = 1e-6;
+
 /// Share of the normal forces that joints may take up as shear in the load step that closes them.
 const SHEAR: f64 = 0.01;
 
 /// What the states without inertia say of their own uniqueness.
 pub struct Equilibria {
     motions: FreeMotions,
+    /// which joint points touched in the last state
+    touched: Vec<bool>,
     /// (body, what it is free to do, since when [s]), each once
     free: Vec<(String, Free, f64)>,
     /// the largest share of shear taken up while closing, and when [s]
@@ -26,6 +31,7 @@ impl Equilibria {
         let has_any = model.analysis == Analysis::Static || model.gravity > 0.;
         (has_any && !system.interface.points.is_empty()).then(|| Equilibria {
             motions: FreeMotions::new(system),
+            touched: vec![],
             free: vec![],
             shear: (0., 0.),
         })
@@ -33,11 +39,14 @@ impl Equilibria {
 
     /// With one more load step.
     pub fn after(mut self, system: &System, old: &State, new: &State) -> Equilibria {
-        for (body, free) in self.motions.of(system, new) {
+        let touches = self.motions.touching(system, new);
+        let free_now = if touches == self.touched { vec![] } else { self.motions.of(&touches) };
+        for (body, free) in free_now {
             if !self.free.iter().any(|(name, known, _)| *name == body.name && *known == free) {
                 self.free.push((body.name.clone(), free, new.time));
             }
         }
+        self.touched = touches;
         let share = shear_while_closing(system, old, new);
         if share > self.shear.0 {
             self.shear = (share, new.time);
@@ -88,5 +97,5 @@ fn shear_while_closing(system: &System, old: &State, new: &State) -> f64 {
     });
     let shear: f64 = closes.map(|(point, (_, now))| point.area * now.traction[0].abs()).sum();
     let pressed: f64 = points().map(|(point, (_, now))| -point.area * now.traction[1]).sum();
-    if shear == 0. { 0. } else { shear / pressed }
+    if pressed <= UNLOADED * new.largest_force { 0. } else { shear / pressed }
 }
