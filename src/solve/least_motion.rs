@@ -13,7 +13,7 @@ use nalgebra::Matrix2;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Stiffness of the springs over that of the joints, closed and no stiffer than the bodies beside them. A larger share
+/// Stiffness of the springs over that of the softest joint, closed and no stiffer than the bodies beside it. A larger share
 /// takes more rounds; a smaller one leaves more of where a free body stands to round-off, which over the default case's
 /// steel rings is 1e-11 of the forces, 1e-13 over this of the displacements.
 pub const SHARE: f64 = 1e-6;
@@ -97,9 +97,11 @@ impl Springs {
         let mut is_loose = vec![false; count - border];
         system.loose.iter().flat_map(Loose::unknowns).for_each(|i| is_loose[i - border] = true);
         let mut stiffness = vec![0.; count - border];
-        for (point, closed) in system.interface.points.iter().zip(closed) {
+        // A body may be held through others, by the softest joint of all.
+        let softest = closed.iter().map(|d| d[(1, 1)]).fold(f64::INFINITY, f64::min);
+        for point in &system.interface.points {
             // alike along both axes, whatever the joint's direction
-            system.interface.tangent(point, &Matrix2::from_diagonal_element(SHARE * closed[(1, 1)]), |i, j, value| {
+            system.interface.tangent(point, &Matrix2::from_diagonal_element(SHARE * softest), |i, j, value| {
                 if i == j {
                     sides
                         .of(i)
