@@ -68,7 +68,7 @@ impl<'a> Recorder<'a> {
             status,
             ledger: start.ledger.clone(),
             contact: ContactRecord::default(),
-            equilibria: Equilibria::new(model, system).map(|e| e.after(system, &State::at_rest(system), state)),
+            equilibria: Equilibria::new(model, system).map(|e| e.after(system, &State::at_rest(system), start.state())),
             steps: 0,
             iterations: 0,
             started: Instant::now(),
