@@ -1,0 +1,287 @@
+"""A random case for a random ground, and what is known about it without running it."""
+
+import dataclasses
+import math
+
+from twins import ground as grounds
+from twins.drawing import Drawing
+
+
+@dataclasses.dataclass
+class Case:
+    """`scale` holds the natural size of each quantity [SI], below whose 1e-9 all is round-off."""
+
+    drawing: Drawing
+    json: dict
+    kind: str
+    features: list
+    scale: dict
+
+
+def chance(rng, share):
+    return rng.random() < share
+
+
+def log(rng, low, high):
+    return 10 ** rng.uniform(math.log10(low), math.log10(high))
+
+
+def oedometric(material):
+    e, nu = material["young"], material["poisson"]
+    return e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+
+
+def draw_materials(rng, drawing):
+    """One for each layer and body; helper groups have none."""
+    materials = {}
+    for name in drawing.group_names("face"):
+        if name.startswith("layer"):
+            materials[name] = {"young": log(rng, 2e7, 1e9), "poisson": rng.choice([0.1, 0.25, 0.3, 0.4, 0.46]),
+                               "density": rng.uniform(1600, 2700), "friction": draw_friction(rng)}
+        elif name.startswith(("box", "pipe")):
+            stiff = chance(rng, 0.5)
+            materials[name] = {"young": 2.1e11 if stiff else log(rng, 1e8, 3e10), "poisson": rng.choice([0.2, 0.3]),
+                               "density": 7850 if stiff else rng.uniform(1000, 2600)}
+            materials[name]["friction"] = draw_friction(rng)
+    return materials
+
+
+def draw_friction(rng):
+    return rng.choice([0, 0.2, 0.3, 0.41, 0.6, 0.8, 1, 1.2, rng.uniform(0, 1.2)])
+
+
+def draw_interface(rng, body, side, gaps):
+    interface = {"body": body}
+    if chance(rng, 0.7):
+        interface["friction"] = draw_friction(rng)
+    if chance(rng, 0.7):
+        interface["thickness"] = log(rng, 1e-4, 0.1) * side
+    else:
+        interface["normal_stiffness"] = log(rng, 1e8, 1e13) / max(side, 0.1)
+        if chance(rng, 0.7):
+            interface["tangential_stiffness"] = interface["normal_stiffness"] * rng.uniform(0.2, 1)
+    if gaps and chance(rng, 0.7):
+        interface["gap"] = log(rng, 1e-7, 1e-3) * side
+    if chance(rng, 0.12):
+        interface["integration"] = "gauss_1"
+    return interface
+
+
+def draw_pulse(rng, span, peak, charges, duration_of_static=None):
+    """A law with its keys; `span` is the time that the pulse should take."""
+    law = rng.choice(["linear", "step", "ramp", "half_sine", "friedlander", "table"] + ["charge"] * charges)
+    long = span * rng.uniform(0.3, 1.5)
+    pulse = {"law": law, "peak": peak}
+    if law in ("linear", "ramp", "half_sine", "friedlander"):
+        pulse["duration"] = long
+    if law == "friedlander":
+        pulse["decay"] = rng.uniform(0.2, 3)
+        if chance(rng, 0.5):
+            pulse |= {"negative_peak": peak * rng.uniform(0.05, 0.4), "negative_duration": long * rng.uniform(0.5, 2)}
+    if law == "table":
+        times = sorted(rng.uniform(0, span) for _ in range(rng.randint(2, 6)))
+        pulse = {"law": law, "times": times, "values": [peak * rng.uniform(-0.3, 1) for _ in times]}
+    if law == "charge":
+        pulse = {"law": law, "explosion": {"charge": log(rng, 1, 1000), "standoff": log(rng, 5, 30), "wave": "incident"}}
+        pulse["scale"] = log(rng, 0.05, 1)
+    if chance(rng, 0.15):
+        pulse["start"] = span * rng.uniform(0, 0.3)
+    if chance(rng, 0.15) and law not in ("ramp", "half_sine"):
+        pulse["rise"] = span * rng.uniform(0.02, 0.2)
+    return pulse
+
+
+def direction(rng):
+    return rng.choice([[1, 0], [-1, 0], [0, -1], [0, 1], [round(rng.uniform(-1, 1), 3), -1]])
+
+
+def draw_loads(rng, drawing, bodies, interfaces, span, peak, size, free_field, static, wave_speed):
+    """One to three loads, each an object of its own, so that they add up."""
+    curves = drawing.group_names("line")
+    bores = [name for name in curves if name.startswith("bore")]
+    loads = []
+    for _ in range(rng.choice([1, 1, 1, 2, 3])):
+        what = rng.choice(["surface"] * 5 + ["strip", "strip", "traction", "force", "body_force", "bore", "joint", "side"])
+        pressure = peak * rng.uniform(0.3, 1)
+        pulse = draw_pulse(rng, span, pressure, what == "surface" and not static)
+        if what in ("surface", "strip"):
+            load = {what if what in curves else "surface": {"pressure": pulse}}
+            if not free_field and not static and chance(rng, 0.15):
+                front = {"speed": wave_speed * rng.uniform(0.5, 3)}
+                front["direction"] = rng.choice([[1, 0], [-1, 0]])
+                pulse["front"] = front
+        elif what == "traction" and not free_field:
+            load = {rng.choice(["surface", "strip"]) if "strip" in curves else "surface": {"traction": pulse | {"direction": direction(rng)}}}
+        elif what == "force":
+            scale_pulse(pulse, size)
+            load = {"P2": {"force": pulse | {"direction": direction(rng)}}}
+        elif what == "body_force" and bodies:
+            scale_pulse(pulse, 1 / size)
+            load = {rng.choice(bodies): {"body_force": pulse | {"direction": direction(rng)}}}
+        elif what == "bore" and bores:
+            load = {rng.choice(bores): {"pressure": pulse}}
+        elif what == "joint" and interfaces:
+            load = {rng.choice(sorted(interfaces)): {"pressure": pulse}}
+        elif what == "side" and interfaces:
+            name = f"{rng.choice(sorted(interfaces))}@{rng.choice(['body', 'ground'])}"
+            load = {name: {"traction": pulse | {"direction": direction(rng)}}}
+        else:
+            load = {"surface": {"pressure": pulse}}
+        loads.append(load)
+    return loads
+
+
+def scale_pulse(pulse, factor):
+    for key in ("peak", "negative_peak"):
+        if key in pulse:
+            pulse[key] *= factor
+    if "values" in pulse:
+        pulse["values"] = [v * factor for v in pulse["values"]]
+
+
+def draw_borders(rng, static, level_layers):
+    """(supports, boundaries)"""
+    rollers = {"base": ["x", "y"], "side_left": ["x"], "side_right": ["x"]}
+    way = rng.choice(["rollers"] * 4 + ["base", "fixed"] + ["viscous_base", "free_field", "free_field_fixed"] * level_layers)
+    if way == "rollers":
+        return rollers, {}
+    if way == "base":
+        return {"base": ["x", "y"]}, {}
+    if way == "fixed":
+        return {"base": ["x", "y"], "side_left": ["x", "y"], "side_right": ["x", "y"]}, {}
+    if way == "viscous_base":
+        return {"side_left": ["x"], "side_right": ["x"]}, {"base": "viscous"}
+    sides = {"side_left": "free_field", "side_right": "free_field"}
+    return ({"base": ["x", "y"]}, sides) if way == "free_field_fixed" else ({}, sides | {"base": "viscous"})
+
+
+def draw_damping(rng):
+    if chance(rng, 0.25):
+        return None
+    keys = {"ratio": rng.choice([0.01, 0.05, 0.1, 0.2])} if chance(rng, 0.6) else None
+    if keys and chance(rng, 0.3):
+        keys["modes"] = [1, 3]
+    return keys or {}
+
+
+def draw_time(rng, transit):
+    """(time, span): steps that resolve the run of a P wave through the ground, and the time that pulses should take."""
+    step = transit * log(rng, 0.02, 0.2)
+    steps = rng.randint(20, 80)
+    time = {"step": step, "end": step * steps}
+    if chance(rng, 0.2):
+        time["hht"] = -round(rng.uniform(0.02, 0.33), 3)
+    if chance(rng, 0.1):
+        time["energy_tolerance"] = rng.choice([0.005, 0.02, 0.1])
+    if chance(rng, 0.1):
+        time["start"] = "rest"
+    return time, step * steps
+
+
+def probe_points(rng, ground):
+    """{node: names} of points to watch, the probes' names, and whether one lies where interfaces meet or end."""
+    own = lambda name: sorted({n for edge, groups in ground.lines.items() if name in groups for n in edge})
+    count, border = {}, {n for edge, groups in ground.lines.items() if not groups & set(ground.interfaces) for n in edge}
+    for (a, b), groups in ground.lines.items():
+        for name in groups & set(ground.interfaces):
+            for n in (a, b):
+                count.setdefault(n, []).append(name)
+    inner = sorted(n for n, names in count.items() if len(names) == 2 and len(set(names)) == 1 and n not in border)
+    points, probes = {}, []
+
+    def watch(name, node):
+        points.setdefault(node, set()).add(name)
+        probes.append(name)
+
+    watch("P1", rng.choice(own("surface")))
+    loose = [n for n in range(len(ground.places)) if n not in count]
+    watch("P2", rng.choice(loose))
+    watch("P3", rng.choice(loose))
+    for k, node in enumerate(rng.sample(inner, min(2, len(inner)))):
+        watch(f"I{k + 1}", node)
+        probes.append(f"I{k + 1}@ground")
+    in_bodies = [n for nodes, groups in ground.quads if groups & set(ground.bodies) for n in nodes if n not in count]
+    if in_bodies:
+        watch("B1", rng.choice(in_bodies))
+    return points, probes
+
+
+def draw(rng):
+    ground = grounds.draw_ground(rng)
+    width, height, side = ground.size
+    if chance(rng, 0.3):
+        top = [edge for edge, groups in ground.lines.items() if "surface" in groups]
+        for edge in top[: rng.randint(1, len(top))]:
+            ground.lines[edge].add("strip")
+    points, probes = probe_points(rng, ground)
+    drawing, order = grounds.finish(rng, ground, points)
+    materials = draw_materials(rng, drawing)
+    layers = [m for name, m in materials.items() if name.startswith("layer")]
+    soft, speed = min(m["young"] for m in materials.values()), max(math.sqrt(oedometric(m) / m["density"]) for m in layers)
+    static = chance(rng, 0.35)
+    gravity = 9.81 if chance(rng, 0.35) else 0
+    weight = 2000 * gravity * height
+    supports, boundaries = draw_borders(rng, static, True)
+    free_field = "free_field" in boundaries.values()
+    time, span = ({"step": 1, "end": rng.randint(1, 12)},) * 2 if static else draw_time(rng, height / speed)
+    span = time["end"] if static else span
+    peak = log(rng, 1e3, 1e6) if not gravity else weight * log(rng, 0.3, 10)
+    gaps = chance(rng, 0.25)
+    interfaces = {name: draw_interface(rng, body, side, gaps) for name, body in ground.interfaces.items()}
+    case = {"analysis": "static" if static else "dynamic", "materials": materials, "interfaces": interfaces,
+            "supports": supports, "boundaries": boundaries, "time": time, "probes": probes,
+            "output": {"every": time["end"]}}
+    if not (gravity and chance(rng, 0.15)):
+        case["loads"] = draw_loads(rng, drawing, ground.bodies, interfaces, span, peak, side, free_field, static, speed)
+    if gravity:
+        case["gravity"] = gravity
+    if "loads" not in case or (not static and chance(rng, 0.06)):
+        name = rng.choice(ground.bodies or ["layer_1"])
+        if not static:
+            case["initial"] = {name: {"velocity": [rng.uniform(-1, 1) * peak / speed / 2000 for _ in range(2)]}}
+    if not static:
+        damping = draw_damping(rng)
+        if damping == {}:
+            damping = {"alpha": log(rng, 0.05, 2) / span, "beta": log(rng, 0.02, 2) * time["step"]}
+        if damping:
+            if chance(rng, 0.2):
+                damping["interfaces"] = True
+            case["damping"] = damping
+        if chance(rng, 0.15):
+            case["mass"] = "lumped"
+    if chance(rng, 0.2):
+        case["elements"] = {"quad4": "b_bar"}
+    settle = weight * height / soft
+    u = max(1e-2 * settle, 1e-9 * peak * height / soft)
+    scale = {"u": u, "v": u / time["step"], "a": u / time["step"] ** 2, "energy": u * max(weight, 1e-9 * peak) * width}
+    return Case(drawing, case, ground.kind, features(case, order), scale)
+
+
+def features(case, order):
+    """Words for what may matter, to count failures by."""
+    faces = case["interfaces"].values()
+    friction = [i.get("friction", None) for i in faces]
+    loads = [pulse for load in case.get("loads", []) for of_group in load.values() for pulse in of_group.values()]
+    tests = {
+        "order 2": order == 2,
+        "gap": any("gap" in i for i in faces),
+        "friction 0": 0 in friction or any(m.get("friction") == 0 for m in case["materials"].values()) and None in friction,
+        "friction >= 0.8": any(f is not None and f >= 0.8 for f in friction),
+        "gauss_1": any("integration" in i for i in faces),
+        "gravity": "gravity" in case,
+        "no load": "loads" not in case,
+        "undamped": case["analysis"] == "dynamic" and "damping" not in case,
+        "damping.interfaces": case.get("damping", {}).get("interfaces", False),
+        "hht": "hht" in case["time"],
+        "energy_tolerance": "energy_tolerance" in case["time"],
+        "start rest": "start" in case["time"],
+        "lumped": case.get("mass") == "lumped",
+        "b_bar": "elements" in case,
+        "viscous": "viscous" in case["boundaries"].values(),
+        "free_field": "free_field" in case["boundaries"].values(),
+        "front": any("front" in pulse for pulse in loads),
+        "pulse ends": any(pulse["law"] in ("linear", "half_sine", "friedlander", "charge") for pulse in loads),
+        "load on a joint": any(name.split("@")[0] in case["interfaces"] for load in case.get("loads", []) for name in load),
+        "initial": "initial" in case,
+    }
+    return [name for name, holds in tests.items() if holds]
