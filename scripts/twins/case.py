@@ -50,7 +50,7 @@ def draw_friction(rng):
     return rng.choice([0, 0.2, 0.3, 0.41, 0.6, 0.8, 1, 1.2, rng.uniform(0, 1.2)])
 
 
-def draw_interface(rng, body, side, gaps):
+def draw_interface(rng, body, side, gaps, order):
     interface = {"body": body}
     if chance(rng, 0.7):
         interface["friction"] = draw_friction(rng)
@@ -62,7 +62,7 @@ def draw_interface(rng, body, side, gaps):
             interface["tangential_stiffness"] = interface["normal_stiffness"] * rng.uniform(0.2, 1)
     if gaps and chance(rng, 0.7):
         interface["gap"] = log(rng, 1e-7, 1e-3) * side
-    if chance(rng, 0.12):
+    if order == 1 and chance(rng, 0.15):
         interface["integration"] = "gauss_1"
     return interface
 
@@ -227,7 +227,7 @@ def draw(rng):
     span = time["end"] if static else span
     peak = log(rng, 1e3, 1e6) if not gravity else weight * log(rng, 0.3, 10)
     gaps = chance(rng, 0.25)
-    interfaces = {name: draw_interface(rng, body, side, gaps) for name, body in ground.interfaces.items()}
+    interfaces = {name: draw_interface(rng, body, side, gaps, order) for name, body in ground.interfaces.items()}
     case = {"analysis": "static" if static else "dynamic", "materials": materials, "interfaces": interfaces,
             "supports": supports, "boundaries": boundaries, "time": time, "probes": probes,
             "output": {"every": time["end"]}}
@@ -253,7 +253,7 @@ def draw(rng):
         case["elements"] = {"quad4": "b_bar"}
     settle = weight * height / soft
     u = max(1e-2 * settle, 1e-9 * peak * height / soft)
-    scale = {"u": u, "v": u / time["step"], "a": u / time["step"] ** 2, "energy": u * max(weight, 1e-9 * peak) * width}
+    scale = {"step": time["step"], "u": u, "v": u / time["step"], "a": u / time["step"] ** 2, "energy": u * max(weight, 1e-9 * peak) * width}
     return Case(drawing, case, ground.kind, features(case, order), scale)
 
 

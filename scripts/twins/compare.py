@@ -49,11 +49,14 @@ def differences(one, other, scale):
     found = {}
     rows = min(len(one.times), len(other.times))
     if rows and one.histories is not None and other.histories is not None:
-        for family in FAMILIES:
-            a, b = (of_family(result, family)[:rows] for result in (one, other))
-            if a.size:
-                peak = max(np.abs(a).max(), np.abs(b).max(), scale[family])
-                found[family] = float(np.abs(a - b).max() / peak)
+        of_each = {family: [of_family(result, family)[:rows] for result in (one, other)] for family in FAMILIES}
+        peaks = {family: max(np.abs(a).max(), np.abs(b).max(), scale[family]) for family, (a, b) in of_each.items() if a.size}
+        # Newmark's rule makes v and a from differences of u, 2/dt and 4/dt^2 of them: of u to 9 digits no more can be asked
+        step = scale["step"]
+        floor = {"u": 0.0, "v": 2e-3 / step * peaks["u"], "a": 4e-3 / step**2 * peaks["u"]}
+        for family, peak in peaks.items():
+            a, b = of_each[family]
+            found[family] = float(np.abs(a - b).max() / max(peak, floor[family]))
     if one.code == other.code == 0:
         found |= of_summaries(one, other, scale)
     return found

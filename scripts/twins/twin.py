@@ -41,6 +41,16 @@ def loaded_times(case, factor):
     return Written(json, msh(case.drawing))
 
 
+def perturbed(case, factor, rng):
+    """The load times a factor that is 1 to 14 digits, and every inner node moved by as little of the mesh's extent."""
+    written = loaded_times(case, factor)
+    border = {n for cell in case.drawing.cells if cell.kind == "line" for n in cell.nodes}
+    size = max(abs(x) + abs(y) for x, y in case.drawing.places) * abs(factor - 1)
+    move = lambda v: v + size * rng.uniform(-1, 1)
+    places = [(x, y) if n in border else (move(x), move(y)) for n, (x, y) in enumerate(case.drawing.places)]
+    return Written(written.json, msh(Drawing(places, case.drawing.cells)))
+
+
 def in_parts(case, rng):
     """Every load as two halves, or as three parts."""
     json = copy.deepcopy(case.json)
