@@ -67,7 +67,7 @@ def draw_interface(rng, body, side, gaps, order):
     return interface
 
 
-def draw_pulse(rng, span, peak, charges, duration_of_static=None):
+def draw_pulse(rng, span, peak, charges):
     """A law with its keys; `span` is the time that the pulse should take."""
     law = rng.choice(["linear", "step", "ramp", "half_sine", "friedlander", "table"] + ["charge"] * charges)
     long = span * rng.uniform(0.3, 1.5)
@@ -139,10 +139,16 @@ def scale_pulse(pulse, factor):
         pulse["values"] = [v * factor for v in pulse["values"]]
 
 
-def draw_borders(rng, static, level_layers):
-    """(supports, boundaries)"""
+def touches(ground):
+    """Whether an interface ends in a side of the ground."""
+    ends = lambda names: {n for edge, groups in ground.lines.items() if groups & names for n in edge}
+    return bool(ends(set(ground.interfaces)) & ends({"side_left", "side_right"}))
+
+
+def draw_borders(rng, sides_opened):
+    """(supports, boundaries); a free field needs sides without a break"""
     rollers = {"base": ["x", "y"], "side_left": ["x"], "side_right": ["x"]}
-    way = rng.choice(["rollers"] * 4 + ["base", "fixed"] + ["viscous_base", "free_field", "free_field_fixed"] * level_layers)
+    way = rng.choice(["rollers"] * 4 + ["base", "fixed"] + ["viscous_base"] + ["free_field", "free_field_fixed"] * (not sides_opened))
     if way == "rollers":
         return rollers, {}
     if way == "base":
@@ -221,7 +227,7 @@ def draw(rng):
     static = chance(rng, 0.35)
     gravity = 9.81 if chance(rng, 0.35) else 0
     weight = 2000 * gravity * height
-    supports, boundaries = draw_borders(rng, static, True)
+    supports, boundaries = draw_borders(rng, touches(ground))
     free_field = "free_field" in boundaries.values()
     time, span = ({"step": 1, "end": rng.randint(1, 12)},) * 2 if static else draw_time(rng, height / speed)
     span = time["end"] if static else span

@@ -20,6 +20,7 @@ class Result:
     names: list = dataclasses.field(default_factory=list)
     histories: np.ndarray = None
     summary: dict = dataclasses.field(default_factory=dict)
+    substeps: list = dataclasses.field(default_factory=list)  # times of all steps, the shorter ones of a cut step included
 
     def warnings(self):
         return self.summary.get("warnings", [])
@@ -35,6 +36,9 @@ def read(folder, code, said, mirrored):
         result.histories = np.array([[float(x) for x in row[1:]] for row in rows[1:]]).reshape(-1, len(result.names))
         if mirrored:
             result.histories[:, [name.endswith("x") for name in result.names]] *= -1
+    if (folder / "run.sta").exists():
+        lines = (folder / "run.sta").read_text().splitlines()
+        result.substeps = [float(line.split()[1]) for line in lines if not line.startswith("#")]
     if (folder / "summary.json").exists():
         result.summary = json.loads((folder / "summary.json").read_text())
     return result

@@ -237,7 +237,7 @@ def finish(rng, ground, points):
     cells += [Cell("line", [a, b], frozenset(groups)) for (a, b), groups in ground.lines.items()]
     cells += [Cell("point", [node], frozenset(names)) for node, names in points.items()]
     drawing = Drawing(places, cells)
-    curved = rng.random() < 0.7
+    curved = share == 0 and rng.random() < 0.7  # a triangle in a thin wall would fold
 
     def middle(a, b):
         x, y = ((p + q) / 2 for p, q in zip(places[a], places[b]))
