@@ -16,7 +16,7 @@ WHY = re.compile(r"round-off|not unique|no unique|sensitive|more than one equili
 # the warning of joints that chatter, whose motion is no converged one
 CHATTER = re.compile(r"have made energy")
 PERTURBATIONS = [1 + 1e-14, 1 - 1e-14, 1 + 3e-14]
-# steps that a difference takes from 1e-10 to 1e-6 of the peak at least where it grows and does not jump
+# steps that a difference takes from 1e-9 to 1e-6 of the peak at least where it grows and does not jump
 GRADUAL = 4
 
 OUTCOMES = {
@@ -116,10 +116,10 @@ class Trial:
         if self.case.json["analysis"] == "static" or not (one.times and other.times):
             return False
         path = list(compare.growth(one, other, self.case.scale))
-        noise = [t for t, value in zip(one.times, path) if value < 1e-10]
+        noise = [t for t, value in zip(one.times, path) if value < 1e-9]
         small = [t for t, value in zip(one.times, path) if value < compare.TOLERANCE]
         begin, end = max(noise, default=0), max(small, default=0)
-        return sum(begin < t <= end * (1 + 1e-9) for t in one.substeps) >= GRADUAL or end == one.times[-1]
+        return sum(begin < t <= end * (1 + 1e-9) for t in one.substeps) >= GRADUAL
 
     def agrees_with_tight_newton(self, name, written):
         """Whether the difference is what `newton.tolerance` leaves."""
