@@ -201,7 +201,7 @@ def probe_points(rng, ground):
 
     watch("P1", rng.choice(own("surface")))
     loose = [n for n in range(len(ground.places)) if n not in count]
-    watch("P2", rng.choice(loose))
+    watch("P2", rng.choice([n for n in loose if n not in border]))  # a force acts there, so no support may hold it
     watch("P3", rng.choice(loose))
     for k, node in enumerate(rng.sample(inner, min(2, len(inner)))):
         watch(f"I{k + 1}", node)
