@@ -3,8 +3,9 @@
 import dataclasses
 import math
 
-from twins import ground as grounds
+from twins import grid, pipes
 from twins.drawing import Drawing
+from twins.ground import finish
 
 
 @dataclasses.dataclass
@@ -213,14 +214,15 @@ def probe_points(rng, ground):
 
 
 def draw(rng):
-    ground = grounds.draw_ground(rng)
+    kind = rng.choice(grid.KINDS[1:] * 2 + pipes.KINDS * 3 + grid.KINDS[:1])
+    ground = (pipes if kind in pipes.KINDS else grid).draw(rng, kind)
     width, height, side = ground.size
     if chance(rng, 0.3):
         top = [edge for edge, groups in ground.lines.items() if "surface" in groups]
         for edge in top[: rng.randint(1, len(top))]:
             ground.lines[edge].add("strip")
     points, probes = probe_points(rng, ground)
-    drawing, order = grounds.finish(rng, ground, points)
+    drawing, order = finish(rng, ground, points)
     materials = draw_materials(rng, drawing)
     layers = [m for name, m in materials.items() if name.startswith("layer")]
     soft, speed = min(m["young"] for m in materials.values()), max(math.sqrt(oedometric(m) / m["density"]) for m in layers)
