@@ -10,7 +10,8 @@ from twins.ground import finish
 
 @dataclasses.dataclass
 class Case:
-    """`scale` holds the natural size of each quantity [SI], below whose 1e-9 all is round-off."""
+    """`scale` holds sizes [SI] of the histories' quantities below which no digits are asked for: of the settlement under
+    gravity a hundredth, since that is in balance to `newton.tolerance` (1e-8), and 1e-9 of what the loads do in statics."""
 
     drawing: Drawing
     json: dict
@@ -92,6 +93,18 @@ def draw_pulse(rng, span, peak, charges):
     return pulse
 
 
+def add_front(rng, pulse, wave_speed, far):
+    """The pulse behind a plane front, a circular one, or that of a charge on the ground beside the curve."""
+    place = [round(rng.uniform(1, 3) * far * rng.choice([-1, 1]), 3), 0]
+    if pulse["law"] == "charge":
+        place[0] += math.copysign(10, place[0])  # nearer no formula holds
+        explosion = {"charge": log(rng, 1, 100), "at": place, "burst": "hemispherical", "wave": "incident"}
+        pulse["explosion"] = explosion | {"clock": "arrival"}
+    else:
+        to = rng.choice([{"direction": [1, 0]}, {"direction": [-1, 0]}, {"from": place}])
+        pulse["front"] = {"speed": wave_speed * rng.uniform(0.5, 3)} | to
+
+
 def direction(rng):
     return rng.choice([[1, 0], [-1, 0], [0, -1], [0, 1], [round(rng.uniform(-1, 1), 3), -1]])
 
@@ -108,11 +121,10 @@ def draw_loads(rng, drawing, bodies, interfaces, span, peak, size, free_field, s
         if what in ("surface", "strip"):
             load = {what if what in curves else "surface": {"pressure": pulse}}
             if not free_field and not static and chance(rng, 0.15):
-                front = {"speed": wave_speed * rng.uniform(0.5, 3)}
-                front["direction"] = rng.choice([[1, 0], [-1, 0]])
-                pulse["front"] = front
+                add_front(rng, pulse, wave_speed, size * 10)
         elif what == "traction" and not free_field:
-            load = {rng.choice(["surface", "strip"]) if "strip" in curves else "surface": {"traction": pulse | {"direction": direction(rng)}}}
+            curve = rng.choice(["surface", "strip"]) if "strip" in curves else "surface"
+            load = {curve: {"traction": pulse | {"direction": direction(rng)}}}
         elif what == "force":
             scale_pulse(pulse, size)
             load = {"P2": {"force": pulse | {"direction": direction(rng)}}}
@@ -149,7 +161,8 @@ def touches(ground):
 def draw_borders(rng, sides_opened):
     """(supports, boundaries); a free field needs sides without a break"""
     rollers = {"base": ["x", "y"], "side_left": ["x"], "side_right": ["x"]}
-    way = rng.choice(["rollers"] * 4 + ["base", "fixed"] + ["viscous_base"] + ["free_field", "free_field_fixed"] * (not sides_opened))
+    free_fields = [] if sides_opened else ["free_field", "free_field_fixed"]
+    way = rng.choice(["rollers"] * 4 + ["base", "fixed", "viscous_base"] + free_fields)
     if way == "rollers":
         return rollers, {}
     if way == "base":
@@ -172,7 +185,7 @@ def draw_damping(rng):
 
 
 def draw_time(rng, transit):
-    """(time, span): steps that resolve the run of a P wave through the ground, and the time that pulses should take."""
+    """Steps that resolve the run of a P wave through the ground."""
     step = transit * log(rng, 0.02, 0.2)
     steps = rng.randint(20, 80)
     time = {"step": step, "end": step * steps}
@@ -182,7 +195,7 @@ def draw_time(rng, transit):
         time["energy_tolerance"] = rng.choice([0.005, 0.02, 0.1])
     if chance(rng, 0.1):
         time["start"] = "rest"
-    return time, step * steps
+    return time
 
 
 def probe_points(rng, ground):
@@ -231,8 +244,8 @@ def draw(rng):
     weight = 2000 * gravity * height
     supports, boundaries = draw_borders(rng, touches(ground))
     free_field = "free_field" in boundaries.values()
-    time, span = ({"step": 1, "end": rng.randint(1, 12)},) * 2 if static else draw_time(rng, height / speed)
-    span = time["end"] if static else span
+    time = {"step": 1, "end": rng.randint(1, 12)} if static else draw_time(rng, height / speed)
+    span = time["end"]
     peak = log(rng, 1e3, 1e6) if not gravity else weight * log(rng, 0.3, 10)
     gaps = chance(rng, 0.25)
     interfaces = {name: draw_interface(rng, body, side, gaps, order) for name, body in ground.interfaces.items()}
@@ -261,7 +274,8 @@ def draw(rng):
         case["elements"] = {"quad4": "b_bar"}
     settle = weight * height / soft
     u = max(1e-2 * settle, 1e-9 * peak * height / soft)
-    scale = {"step": time["step"], "u": u, "v": u / time["step"], "a": u / time["step"] ** 2, "energy": u * max(weight, 1e-9 * peak) * width}
+    step, energy = time["step"], u * max(weight, 1e-9 * peak) * width
+    scale = {"step": step, "u": u, "v": u / step, "a": u / step**2, "energy": energy}
     return Case(drawing, case, ground.kind, features(case, order), scale)
 
 
@@ -287,7 +301,7 @@ def features(case, order):
         "b_bar": "elements" in case,
         "viscous": "viscous" in case["boundaries"].values(),
         "free_field": "free_field" in case["boundaries"].values(),
-        "front": any("front" in pulse for pulse in loads),
+        "front": any("front" in pulse or "at" in pulse.get("explosion", {}) for pulse in loads),
         "pulse ends": any(pulse["law"] in ("linear", "half_sine", "friedlander", "charge") for pulse in loads),
         "load on a joint": any(name.split("@")[0] in case["interfaces"] for load in case.get("loads", []) for name in load),
         "initial": "initial" in case,

@@ -99,7 +99,8 @@ def draw(rng, kind):
             ground.places.append(place)
         return numbers[key]
 
-    pipes = [Pipe(f"pipe_{n + 1}", (shift + half * (2 * n - count + 1), -half), half, (inner, outer), counts) for n in range(count)]
+    centres = [(shift + half * (2 * n - count + 1), -half) for n in range(count)]
+    pipes = [Pipe(f"pipe_{n + 1}", centre, half, (inner, outer), counts) for n, centre in enumerate(centres)]
     for pipe in pipes:
         add(ground, pipe, number_at, lambda y: "layer_2" if y < border else "layer_1")
     add_borders(ground, pipes)

@@ -103,7 +103,7 @@ class Trial:
         return ("round-off" if sensitive else outcome), text
 
     def is_sensitive(self, largest):
-        """Whether 1e-14 more or less load changes the answer by 1e-6 or by a tenth as much as the twin does, or the exit code."""
+        """Whether 1e-14 of the load changes the answer by 1e-6, or by a tenth as much as the twin does, or the exit code."""
         for number in range(len(PERTURBATIONS)):
             outcome, change, _ = judge(self.as_drawn, self.perturbed(number), self.case.scale)
             if outcome in ("exit code", "crash") or change > min(largest / 10, compare.TOLERANCE):

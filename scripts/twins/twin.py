@@ -79,9 +79,9 @@ def mirrored(case):
     json = copy.deepcopy(case.json)
     for of_group, _, kind in each_load(json):
         pulse = of_group[kind]
-        for keys in (pulse, pulse.get("front", {})):
-            if "direction" in keys:
-                keys["direction"] = [-keys["direction"][0], keys["direction"][1]]
+        for keys in (pulse, pulse.get("front", {}), pulse.get("explosion", {})):
+            for name in {"direction", "from", "at"} & set(keys):
+                keys[name] = [-keys[name][0], keys[name][1]]
     for motion in json.get("initial", {}).values():
         motion["velocity"] = [-motion["velocity"][0], motion["velocity"][1]]
     places = [(-x, y) for x, y in case.drawing.places]
@@ -111,7 +111,7 @@ def renumbered(case, rng):
     rng.shuffle(order)
     new = {node: number for number, node in enumerate(order)}
     names = case.drawing.group_names("face") + case.drawing.group_names("line")
-    other = {name: f"{letter}_{k}" for k, (name, letter) in enumerate(zip(names, rng.sample("abcdefghijklmnopqrstuvw" * 2, len(names))))}
+    other = {name: f"{rng.choice('abcdefghijklmnopqrstuvwxyz')}_{k}" for k, name in enumerate(names)}
     cells = [turned(rng, cell) for cell in old.cells]
     rng.shuffle(cells)
     rename = lambda cell: cell.groups if cell.kind == "point" else frozenset(other[g] for g in cell.groups)
