@@ -37,7 +37,7 @@ test: setup $(program)
 	$(python) scripts/check_output.py output/test_gravity
 	$(python) scripts/check_gallery.py --binary $(program)
 	$(python) scripts/random_geometries.py 50 2026 --binary $(program)
-	$(python) scripts/random_twins.py 40 2026 --binary $(program)
+	$(python) scripts/random_twins.py 30 2026 --binary $(program)
 	PYTHONPATH=scripts $(python) -m book --quick
 
 book: setup $(program)
