@@ -98,6 +98,7 @@ fn bonded_ring(dt: f64, steps: usize, peak: f64) -> Model {
     let json = json!({
         "materials": { "layer_1": material(183e6, 0.46, 2200.), "layer_2": material(519e6, 0.38, 2600.),
                        "layer_3": material(863e6, 0.27, 2700.), "pipe_left": material(210e9, 0.3, 7800.) },
+        "interfaces": { "interface_left": "bonded" },
         "supports": { "base": ["x", "y"], "side_left": ["x"], "side_right": ["x"] },
         "loads": { "surface": { "pressure": { "law": "linear", "peak": peak, "duration": "5 ms" } } },
         "time": { "step": dt, "end": dt * steps as f64 },

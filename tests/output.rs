@@ -182,6 +182,8 @@ fn the_times_of_a_run_are_the_decimal_numbers_that_the_user_multiplies() {
             &set[1],
             "--set",
             &set[2],
+            // no step is cut for the energy that joints make
+            "--bonded",
         ]);
         assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
         assert_eq!(times(&text(&bench, "out/histories.csv")), expected, "{step}");

@@ -203,7 +203,8 @@ mod tests {
             let [whole, moved] = [mass(&points, 2.), redistributed_mass(&points, 2., &light)];
             assert!((moved.sum() / whole.sum() - 1.).abs() < 1e-14, "{shape:?}: round-off of a sum");
             let share = moved[(0, 0)] / whole[(0, 0)];
-            assert!((KEPT..20. * KEPT).contains(&share), "{shape:?}: {share}, times what the other nodes gain");
+            // times s, what the other nodes gain: 0.94 for T6, whose mid-side nodes have negative terms, 9 for Q4
+            assert!((KEPT / 2. ..20. * KEPT).contains(&share), "{shape:?}: {share}");
             assert!(moved.cholesky().is_some(), "{shape:?}");
             assert_eq!(redistributed_mass(&points, 2., &vec![true; shape.node_count()]), whole);
         }
