@@ -4,6 +4,7 @@ pub mod assembly;
 pub mod condensate;
 pub mod condensed;
 pub mod contact;
+mod diagnosis;
 pub mod energy;
 pub mod free_field;
 pub mod free_motion;
