@@ -243,6 +243,108 @@ fn a_closed_curve_that_the_case_forgets_is_refused_unless_it_is_bonded() {
     assert!(model(json!({ "interface_left": glued("pipe_left") })).is_ok());
 }
 
+/// A square of 7 by 7 with a hollow block of 5 by 5 and a core of 3 by 3 in it; "block_face" lies round the block,
+/// "core_face" round the core.
+fn block_round_a_core() -> Drawing {
+    const N: usize = 7;
+    let mut drawing = Drawing::default();
+    let node = |i: usize, j: usize| j * (N + 1) + i;
+    (0..=N).for_each(|j| (0..=N).for_each(|i| _ = drawing.node([i as f64, j as f64])));
+    let from_edge = |i: usize, j: usize| i.min(j).min(N - 1 - i).min(N - 1 - j);
+    for (j, i) in (0..N).flat_map(|j| (0..N).map(move |i| (j, i))) {
+        let group = ["ground", "block", "core", "core"][from_edge(i, j)];
+        drawing.cell(group, Shape::Quad4, &[node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]);
+    }
+    for (curve, first, last) in [("block_face", 1, 6), ("core_face", 2, 5)] {
+        for k in first..last {
+            for level in [first, last] {
+                drawing.cell(curve, Shape::Line2, &[node(k, level), node(k + 1, level)]);
+                drawing.cell(curve, Shape::Line2, &[node(level, k), node(level, k + 1)]);
+            }
+        }
+    }
+    (0..N).for_each(|i| drawing.cell("base", Shape::Line2, &[node(i, 0), node(i + 1, 0)]));
+    drawing
+}
+
+/// Each of two nested closed curves, also where both are one group; a bonded body is still a body.
+#[test]
+fn forgotten_curves_round_hollow_bodies_are_refused_too() {
+    let ground = json!({ "young": 1e8, "poisson": 0.3, "density": 2000, "friction": 0.3 });
+    let model = |drawing: &Drawing, interfaces: Value| {
+        let json = json!({
+            "analysis": "static",
+            "materials": { "ground": ground, "block": ground, "core": ground },
+            "interfaces": interfaces,
+            "supports": { "base": ["x", "y"] },
+            "time": { "step": 1, "end": 1 },
+        });
+        Model::new(&support::case(&json), &drawing.mesh(), false)
+    };
+    let drawing = block_round_a_core();
+    for (given, forgotten, body) in [("core_face", "block_face", "block"), ("block_face", "core_face", "core")] {
+        let other = if given == "core_face" { "core" } else { "block" };
+        let why = model(&drawing, json!({ given: { "body": other } })).unwrap_err().to_string();
+        assert!(why.contains(&format!("\"{forgotten}\" is the border between \"{body}\"")), "{why}");
+    }
+    let one_group = drawing.renamed("core_face", "block_face");
+    let why = model(&one_group, json!({})).unwrap_err().to_string();
+    assert!(why.contains("\"block_face\" is the border"), "{why}");
+    let bonded = model(&drawing, json!({ "core_face": { "body": "core" }, "block_face": "bonded" })).unwrap();
+    assert_eq!(bonded.bodies, ["block", "core"]);
+}
+
+/// An arc of two lines that are drawn towards each other: the second is read as if it went on from the first.
+#[test]
+fn a_crack_has_one_body_side_along_the_whole_curve() {
+    let mut sides = Vec::new();
+    for second in [[1, 2], [2, 1]] {
+        let mut drawing = four_blocks();
+        let at = |x: f64, y: f64| [x, y];
+        let nodes = [at(2., 1.), at(2.5, 1.), at(3., 1.)]
+            .map(|place| (0..drawing.len()).find(|&node| drawing.at(node) == place).unwrap());
+        drawing.cell("crack", Shape::Line2, &[nodes[0], nodes[1]]);
+        drawing.cell("crack", Shape::Line2, &second.map(|k: usize| nodes[k]));
+        let mut json = case(json!({ "crack": { "body": "layer_1" } }));
+        json["materials"].as_object_mut().unwrap().remove("pipe_left");
+        let model = support::model(&json, &drawing.mesh());
+        let above = |joint: &coralpipe::model::split::Joint| {
+            let [body, ground] = [joint.body_cell, joint.ground_cell].map(|face| model.mesh.place(face));
+            (body, ground)
+        };
+        sides.push(model.joints.iter().map(above).collect::<Vec<_>>());
+    }
+    assert_eq!(sides[0].len(), 2);
+    assert_eq!(sides[0], sides[1]);
+}
+
+/// With --bonded every side of an interface is the one node there.
+#[test]
+fn sides_of_a_bonded_interface_are_the_group_itself() {
+    let mut json = case(json!({ "interface_left": glued("pipe_left"), "bed": glued("layer_2") }));
+    json["supports"]["bed@ground"] = json!(["y"]);
+    let mesh = box_on_a_bed().mesh();
+    let model = Model::new(&support::case(&json), &mesh, true).unwrap();
+    let on_bed = model.mesh.nodes_of(model.mesh.group("bed").unwrap());
+    assert!(!on_bed.is_empty() && on_bed.iter().all(|&node| model.fixed[node][1]));
+    json["supports"]["base@ground"] = json!(["y"]);
+    assert!(Model::new(&support::case(&json), &mesh, true).is_err(), "the base lies on no interface");
+}
+
+/// At a T-junction the support of a point holds all three nodes.
+#[test]
+fn a_support_of_a_point_holds_all_its_nodes_where_interfaces_meet() {
+    let mut drawing = box_on_a_bed();
+    let there = (0..drawing.len()).find(|&node| drawing.at(node) == [2.5, 2.]).unwrap();
+    drawing.cell("P", Shape::Point, &[there]);
+    let mut json = case(json!({ "interface_left": glued("pipe_left"), "bed": glued("layer_2") }));
+    json["supports"]["P"] = json!(["x"]);
+    let model = support::model(&json, &drawing.mesh());
+    let at_place = (0..model.mesh.points.len()).filter(|&node| model.mesh.points[node] == [2.5, 2.]);
+    let held: Vec<bool> = at_place.map(|node| model.fixed[node][0]).collect();
+    assert_eq!(held, [true; 3]);
+}
+
 /// At the T-junction on the left of the box three surfaces have a node each.
 #[test]
 fn a_point_where_interfaces_meet_has_a_node_for_each_surface() {
@@ -258,6 +360,14 @@ fn a_point_where_interfaces_meet_has_a_node_for_each_surface() {
     }
     json["probes"] = json!(["P@layer_9"]);
     assert!(Model::new(&support::case(&json), &drawing.mesh(), false).is_err());
+    // a surface that is called as a side comes first
+    let called_as_a_side = drawing.renamed("layer_1", "body").mesh();
+    json["probes"] = json!(["P@body"]);
+    json["materials"] = json!({ "body": json["materials"]["layer_1"], "layer_2": json["materials"]["layer_2"],
+                                "pipe_left": json["materials"]["pipe_left"] });
+    let model = support::model(&json, &called_as_a_side);
+    let of_surface = model.mesh.nodes_of(model.mesh.group("body").unwrap());
+    assert!(of_surface.contains(&model.probes[0].node));
 }
 
 /// A bedding plane that runs into both free-field sides, pressed evenly: a plane wave, whose motion is upright

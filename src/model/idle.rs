@@ -22,6 +22,13 @@ pub fn idle(case: &Case, model: &Model) -> Vec<String> {
     if case.mass == Mass::Redistributed && model.pairs.is_empty() {
         idle.push("mass = \"redistributed\" has no effect: no interface is open".into());
     }
+    for probe in model.probes.iter().filter(|probe| model.light[probe.node]) {
+        idle.push(format!(
+            "probe {} lies on an interface, whose nodes have next to no mass with mass = \"redistributed\": its accelerations mean \
+             nothing; take a place beside the interface for them",
+            probe.name
+        ));
+    }
     let is_quad4 = |(cell, _): (usize, _)| model.mesh.cells[cell].shape == Shape::Quad4;
     if case.elements.quad4 == Quad4::BBar && !model.faces().any(is_quad4) {
         idle.push("elements.quad4 = \"b_bar\" has no effect: the mesh has no 4-node quadrangles".into());

@@ -23,7 +23,7 @@ pub fn initial(case: &Case, mesh: &Mesh) -> Result<Initial> {
     for (name, motion) in &case.initial {
         let group = mesh.group(name).map_err(|e| Error::input(format!("initial: {e}")))?;
         let new = [motion.displacement.map(f64::from), motion.velocity.map(f64::from)];
-        for node in mesh.both_sides(group).flat_map(|group| mesh.nodes_of(group)) {
+        for node in mesh.copies_of(group).flat_map(|group| mesh.nodes_of(group)) {
             if let Some((other, old)) = given[node].replace((name, new)).filter(|(_, old)| *old != new) {
                 let place = place(mesh.points[node]);
                 let [what, old, new] = match old[0] != new[0] {

@@ -3,7 +3,7 @@
 //! Names are unique within a dimension only, as in Gmsh. A use that asks for points, curves or surfaces says which group
 //! is meant; where it does not, `curve:left` does.
 
-use super::mesh::{Group, Mesh};
+use super::mesh::{Group, Mesh, SIDE};
 use crate::escape;
 use crate::{Error, Result};
 
@@ -74,13 +74,15 @@ impl Mesh {
         !self.called(name).is_empty()
     }
 
-    /// By dimension; a group whose whole name it is comes before those whose dimension stands before the name.
+    /// By dimension; a group whose whole name it is comes before those whose dimension stands before the name. A side of an
+    /// interface that is closed is the group itself.
     fn called(&self, name: &str) -> Vec<&Group> {
         let exact: Vec<&Group> = self.groups.iter().filter(|g| g.name == name).collect();
-        match exact.is_empty() {
-            true => self.groups.iter().filter(|g| g.is_called(name)).collect(),
-            false => exact,
+        if !exact.is_empty() {
+            return exact;
         }
+        let side_of = name.split_once(SIDE).map(|(group, _)| group).filter(|group| self.bonded.contains(*group));
+        self.groups.iter().filter(|g| g.is_called(side_of.unwrap_or(name))).collect()
     }
 
     fn empty(&self, group: &Group) -> Error {

@@ -1,6 +1,7 @@
 //! A plane mesh: points, cells, and the named groups that the whole interface to the user is made of.
 
 use crate::number;
+use std::collections::BTreeSet;
 
 pub use crate::physics::shape::Shape;
 
@@ -56,6 +57,8 @@ pub struct Mesh {
     pub cells: Vec<Cell>,
     /// by dimension, then name; names are unique within a dimension
     pub groups: Vec<Group>,
+    /// names of groups of curves and points on interfaces that the case leaves closed: all their sides are the group itself
+    pub bonded: BTreeSet<String>,
     /// faces that ran clockwise in the file and were turned
     pub turned: usize,
     /// elements that stood more than once in a group of the file, and stand once here
@@ -74,6 +77,15 @@ impl Mesh {
     /// A group and, where it lies on an interface and names no side itself, its ground's side.
     pub fn both_sides<'a>(&'a self, group: &'a Group) -> impl Iterator<Item = &'a Group> {
         std::iter::once(group).chain(self.ground_side(group))
+    }
+
+    /// A group and, where it lies on interfaces, the groups of all nodes at its places.
+    pub fn copies_of<'a>(&'a self, group: &'a Group) -> impl Iterator<Item = &'a Group> {
+        let lies_there = |g: &&Group| {
+            let rest = g.name.strip_prefix(group.name.as_str());
+            g.dimension == group.dimension && rest.is_some_and(|rest| rest.starts_with(SIDE))
+        };
+        std::iter::once(group).chain(self.groups.iter().filter(lies_there))
     }
 
     /// The groups a cell belongs to.

@@ -92,12 +92,10 @@ impl EnergyTolerance {
     /// Where the case names none [-].
     const DEFAULT: f64 = 0.02;
 
-    /// Over a run until `end` [s]. A tolerance that the case names is a budget from the start of the run; otherwise steps
-    /// are first cut where half of the default is used up.
+    /// Over a run until `end` [s]: half of the share is free, the other half is a budget by time.
     pub fn new(named: Option<f64>, end: f64) -> EnergyTolerance {
-        let (share, free) =
-            named.map_or((EnergyTolerance::DEFAULT, EnergyTolerance::DEFAULT / 2.), |share| (share, 0.));
-        EnergyTolerance { share, free, rate: (share - free) / end }
+        let share = named.unwrap_or(EnergyTolerance::DEFAULT);
+        EnergyTolerance { share, free: share / 2., rate: share / 2. / end }
     }
 }
 
@@ -150,12 +148,15 @@ impl Model {
         let mut warnings = Vec::new();
         let (materials, mut material_of) = materials(case, mesh, &mut warnings)?;
         let interfaces = seams(case, mesh, &mut warnings);
-        let bodies: BTreeSet<String> = interfaces.iter().map(|seam| seam.body.clone()).collect();
+        let of_interfaces = interfaces.iter().map(|seam| seam.body.clone());
+        let bodies: BTreeSet<String> = of_interfaces.chain(unused::bonded_bodies(case, mesh)).collect();
         if !bonded {
             unused::refuse_closed_curves(case, mesh)?;
         }
         let seams = if bonded { vec![] } else { interfaces };
+        let closed = unused::on_closed_interfaces(case, mesh, bonded);
         let (Opened { mesh, pairs, joints, sides }, allowed) = openings.of(mesh, &seams, &case.slits)?;
+        let mesh = if closed.is_empty() { mesh } else { Mesh { bonded: closed, ..Mesh::clone(&mesh) }.into() };
         warnings.extend(allowed.warnings);
         material_of.resize(mesh.cells.len(), None);
         let law = |joint: &Joint| joint_law(case, joint, &seams[joint.seam], &materials[ground(joint, &material_of)]);
@@ -337,7 +338,7 @@ fn supports(case: &Case, mesh: &Mesh) -> Result<Vec<[bool; 2]>> {
     }
     for (name, axes) in &case.supports {
         let group = mesh.group(name).map_err(|e| Error::input(format!("supports: {e}")))?;
-        for node in mesh.both_sides(group).flat_map(|group| mesh.nodes_of(group)) {
+        for node in mesh.copies_of(group).flat_map(|group| mesh.nodes_of(group)) {
             axes.iter().for_each(|axis| fixed[node][axis.index()] = true);
         }
     }

@@ -2,15 +2,15 @@
 //! friction + contact + residual.
 //!
 //! For the average acceleration the equation of motion at both ends of a step gives, exactly, (R_n + R_n+1)'du/2 =
-//! change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints' share is then told
-//! apart: what they store, what friction turns to heat, and `contact`: the rest, which comes from joints that open,
+//! change of (kinetic + strain) + dt v'Cv + (r_n + r_n+1)'dj/2, v the mean velocity. The joints' share is then split
+//! into: what they store, what friction turns to heat, and `contact`: the rest, which comes from joints that open,
 //! close or begin to slip inside a step, and from joint damping where the case asks for it. The residual is round-off;
 //! with other Newmark parameters or HHT it is their numerical damping, and where the case starts with a = 0 it holds
 //! the first imbalance.
 
-use super::interface::JointState;
 use super::system::{Rayleigh, State, System};
 use crate::model::case::Analysis;
+use crate::number::short_to;
 use crate::sparse::multiply;
 use crate::sparse::vector::dot;
 use sprs::CsMat;
@@ -48,13 +48,14 @@ pub struct Ledger {
     pub now: Energies,
     /// the largest kinetic + strain + joint energy so far
     pub peak: f64,
-    /// what a motion can draw on: the largest so far of the energy of the initial motion plus the work of loads and of
-    /// the free field [J]
+    /// what a motion can draw on: the largest so far of the energy of the initial motion plus the work of the free field
+    /// and of the loads that come and go [J]. Weight and reactions are in equilibrium with the prestress, so that their
+    /// work on a motion about that state is no supply.
     pub supplied: f64,
     /// the largest fall of `contact` so far: energy that opening, closing and first slip have made [J]
     pub made: f64,
-    /// energy of the state at t = 0 that is no motion: that of the equilibrium under gravity [J]
-    at_rest: f64,
+    /// energy of the initial motion plus the work of the free field and of the loads that come and go [J]
+    supply: f64,
     /// the largest `contact` so far [J]
     most_lost: f64,
     /// the largest |residual| so far
@@ -76,7 +77,7 @@ impl Ledger {
             peak: all,
             supplied,
             made: 0.,
-            at_rest: all - supplied,
+            supply: supplied,
             most_lost: 0.,
             worst: 0.,
             load: system.passing_load(state.time),
@@ -94,7 +95,8 @@ impl Ledger {
 
         let [u, before] = [new, old].map(|state| system.displacements(&state.q));
         let lasting: f64 = system.lasting_loads().map(|f| dot(f, &growth(before, u))).sum();
-        let work = lasting + mean_work(&self.load, &load, old, new);
+        let passing = mean_work(&self.load, &load, old, new);
+        let of_free_field = mean_work(&self.free_field, &free_field, old, new);
         let joint_work = mean_dot(&self.joint_force, &joint_force, &growth_of_jumps(system, old, new));
         let stored = stored(system, new, forms);
         let dashpots = system
@@ -105,8 +107,8 @@ impl Ledger {
         let beyond = outside(system, new).iter().sum::<f64>() - outside(system, old).iter().sum::<f64>();
         let friction = friction(system, old, new);
         let mut now = Energies {
-            work: self.now.work + work,
-            free_field: self.now.free_field + mean_work(&self.free_field, &free_field, old, new),
+            work: self.now.work + lasting + passing,
+            free_field: self.now.free_field + of_free_field,
             damping: self.now.damping + damping,
             boundary: self.now.boundary + dashpots + beyond,
             friction: self.now.friction + friction,
@@ -116,11 +118,12 @@ impl Ledger {
         now.residual = now.work + now.free_field
             - (now.kinetic + now.strain + now.joint + now.damping + now.boundary + now.friction + now.contact);
         let most_lost = self.most_lost.max(now.contact);
+        let supply = self.supply + passing + of_free_field;
         Ledger {
             peak: self.peak.max(now.kinetic + now.strain + now.joint),
-            supplied: self.supplied.max(now.work + now.free_field - self.at_rest),
+            supplied: self.supplied.max(supply),
             made: self.made.max(most_lost - now.contact),
-            at_rest: self.at_rest,
+            supply,
             most_lost,
             worst: self.worst.max(now.residual.abs()),
             now,
@@ -138,15 +141,15 @@ impl Ledger {
     /// A sentence where joints have made or lost more than a small part of the supplied energy. In statics a body slid, or
     /// joints opened or closed, between two load steps, whose forces do not give the work of what lies between them.
     pub fn warning(&self, analysis: Analysis) -> Option<String> {
-        let percent = |energy: f64| 100. * energy.abs() / self.supplied;
+        let lost_too_much = self.now.contact > SUSPICIOUS * self.supplied + ROUND_OFF * self.peak;
         match analysis {
             Analysis::Dynamic if self.has_made_more_than(SUSPICIOUS) => Some(format!(
-                "joints that open and close within steps have made {:.1} % of the energy supplied: {AGAINST_CHATTER}",
-                percent(self.made)
+                "joints that open and close within steps have made {}: {AGAINST_CHATTER}",
+                of_supplied(self.made, self.supplied)
             )),
-            Analysis::Dynamic if self.now.contact > SUSPICIOUS * self.supplied => Some(format!(
-                "joints that open and close within steps have lost {:.1} % of the energy supplied: take a smaller time.step",
-                percent(self.now.contact)
+            Analysis::Dynamic if lost_too_much => Some(format!(
+                "joints that open and close within steps have lost {}: take a smaller time.step",
+                of_supplied(self.now.contact, self.supplied)
             )),
             Analysis::Static if self.now.contact.abs() > SUSPICIOUS * self.peak => Some(format!(
                 "{} between two load steps: the energies are sums over the steps, and {:.1} % of the largest stored is \
@@ -175,6 +178,14 @@ impl Ledger {
     /// Largest |residual| over the largest stored energy.
     pub fn max_relative_error(&self) -> f64 {
         if self.worst == 0. { 0. } else { self.worst / self.peak }
+    }
+}
+
+/// An energy beside the energy supplied, in words.
+pub fn of_supplied(energy: f64, supplied: f64) -> String {
+    match supplied > 0. {
+        true => format!("{} % of the energy supplied", short_to(3, 100. * energy / supplied)),
+        false => format!("{} J/m, where neither loads nor an initial motion supply energy", short_to(2, energy)),
     }
 }
 
@@ -224,20 +235,19 @@ fn drained_by(c: &CsMat<f64>, old: &[f64], new: &[f64]) -> f64 {
     dot(&mean, &multiply(c, &mean))
 }
 
-/// u'K u / 2 of the displacement u since the `origin`, and the change of what the joints store [J].
+/// u'K u / 2 of the displacement u since the `origin`, and what the joints store in the state [J]; 0 at the origin.
 fn energy_of_displacement(system: &System, state: &State, origin: &[f64]) -> f64 {
+    if state.q == origin {
+        return 0.;
+    }
     let from_origin = State { q: growth(origin, &state.q), ..State::at_rest(system) };
     let strain = stored(system, &from_origin, Forms::of(system, &from_origin, &from_origin)).strain;
-    let joint = |jumps| stored_with_jumps(system, &state.joints, jumps);
-    strain + (joint(system.jumps(&state.q)) - joint(system.jumps(origin))).abs()
+    strain + stored_in_joints(system, state)
 }
 
 fn stored_in_joints(system: &System, state: &State) -> f64 {
-    stored_with_jumps(system, &state.joints, system.jumps(&state.q))
-}
-
-fn stored_with_jumps(system: &System, joints: &[JointState], jumps: &[f64]) -> f64 {
-    let points = system.interface.points.iter().zip(joints);
+    let jumps = system.jumps(&state.q);
+    let points = system.interface.points.iter().zip(&state.joints);
     points.map(|(p, joint)| p.area * p.law.stored_energy(system.interface.local(p, jumps), joint.slip)).sum()
 }
 
@@ -294,7 +304,7 @@ mod tests {
             peak,
             supplied: peak,
             made: 0.,
-            at_rest: 0.,
+            supply: peak,
             most_lost: 0.,
             worst,
             load: vec![],

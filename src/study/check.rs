@@ -9,10 +9,10 @@ use super::prepare::Prepared;
 use super::run::{Loaded, Request, load};
 use crate::escape;
 use crate::model::borders::Borders;
-use crate::model::case::{Analysis, Boundary, Case, MeshUnit};
+use crate::model::case::{Analysis, Axis, Boundary, Case, MeshUnit};
 use crate::model::hold::refuse_loose;
 use crate::model::implausible::extent;
-use crate::model::mesh::{Group, Mesh};
+use crate::model::mesh::{Group, Mesh, SIDE};
 use crate::model::quality;
 use crate::model::resolve::Model;
 use crate::number::{fixed, seconds, short};
@@ -96,7 +96,26 @@ fn taken_for(group: &Group, case: &Case, model: &Model) -> String {
     if model.probes.iter().any(|p| is(0, &p.name)) {
         roles.push(if on_interface(group, model) { "probe, on the body's side" } else { "probe" }.into());
     }
+    if case.interfaces.bonded.iter().any(|name| is(1, name)) {
+        roles.push("interface, bonded: both sides share their nodes".into());
+    }
+    roles.extend(roles_of_sides(group, case, model));
     if roles.is_empty() { "not used".into() } else { roles.join("; ") }
+}
+
+/// What the case uses the sides of a group on an interface for: `joint@ground`, `P@layer_1`.
+fn roles_of_sides(group: &Group, case: &Case, model: &Model) -> Vec<String> {
+    let is_side = |name: &str| {
+        let of_group = name.split_once(SIDE).is_some_and(|(group_name, _)| group.is_called(group_name));
+        of_group && model.mesh.group(name).is_ok_and(|side| side.dimension == group.dimension)
+    };
+    let axes = |axes: &[Axis]| axes.iter().map(|a| ["x", "y"][a.index()]).collect::<Vec<_>>().join(" = u_");
+    let supports = case.supports.iter().map(|(name, held)| (name, format!("support: u_{} = 0", axes(held))));
+    let initial = case.initial.keys().map(|name| (name, "initial motion".to_string()));
+    let loads = model.loads.iter().map(|load| (&load.group, loads::role(load)));
+    let probes = model.probes.iter().map(|probe| (&probe.name, "probe".to_string()));
+    let all = supports.chain(initial).chain(loads).chain(probes);
+    all.filter(|(name, _)| is_side(name)).map(|(name, role)| format!("{name}: {role}")).collect()
 }
 
 fn on_interface(group: &Group, model: &Model) -> bool {

@@ -13,7 +13,7 @@ use crate::results::snapshots::{Photographer, Snapshots};
 use crate::results::summary::{
     ContactRecord, Counts, EnergyRecord, Inputs, ProbePlace, Summary, Timing, open_and_slipping,
 };
-use crate::solve::energy::Ledger;
+use crate::solve::energy::{AGAINST_CHATTER, Ledger};
 use crate::solve::march::Accepted;
 use crate::solve::system::State;
 use std::fmt::Write as _;
@@ -32,7 +32,10 @@ pub struct Recorder<'a> {
     contact: ContactRecord,
     /// where states have no inertia
     equilibria: Option<Equilibria>,
+    /// computed, those of cut steps counted too
     steps: usize,
+    /// of the time grid
+    whole_steps: usize,
     iterations: usize,
     started: Instant,
 }
@@ -70,6 +73,7 @@ impl<'a> Recorder<'a> {
             contact: ContactRecord::default(),
             equilibria: Equilibria::new(model, system).map(|e| e.after(system, &State::at_rest(system), start.state())),
             steps: 0,
+            whole_steps: 0,
             iterations: 0,
             started: Instant::now(),
             prepared,
@@ -84,6 +88,7 @@ impl<'a> Recorder<'a> {
     /// One whole step of the grid, given as the steps it was made of; returns the last of them.
     pub fn record(&mut self, number: usize, old: Accepted, steps: Vec<Accepted>) -> Result<Accepted> {
         let system = &self.prepared.system;
+        self.whole_steps += 1;
         self.contact.cut_steps += usize::from(steps.len() > 1);
         let mut last = old;
         for step in steps {
@@ -187,9 +192,17 @@ impl<'a> Recorder<'a> {
                 .chain(self.ledger.unclosed().filter(|_| model.closes_its_ledger()))
                 .chain(self.equilibria.iter().flat_map(Equilibria::warnings))
                 .chain(snapshots.motion.warnings())
+                .chain(cut_often(self.steps, self.whole_steps))
                 .collect(),
         })
     }
+}
+
+/// A sentence where steps were cut so often that the run took twice as many.
+fn cut_often(steps: usize, whole_steps: usize) -> Option<String> {
+    (whole_steps > 0 && steps >= 2 * whole_steps).then(|| {
+        format!("{whole_steps} time steps were cut into {steps}, since joints opened and closed within them: {AGAINST_CHATTER}")
+    })
 }
 
 const STATUS_HEADER: &str = "#  step       t [s]    dt [s] iter  eq.(19)   open  slip   work [J/m]  free field     kinetic      strain       \

@@ -4,9 +4,9 @@ use super::prepare::Prepared;
 use crate::Error;
 use crate::model::case::Analysis;
 use crate::model::split::Seam;
-use crate::number::{place, seconds, short_to};
+use crate::number::{place, seconds};
 use crate::physics::joint::Status;
-use crate::solve::energy::AGAINST_CHATTER;
+use crate::solve::energy::{AGAINST_CHATTER, of_supplied};
 use crate::solve::march::MAX_CUTS;
 use crate::solve::unsettled::{Place, Unsettled};
 
@@ -30,6 +30,14 @@ pub fn in_step(prepared: &Prepared, unsettled: &Unsettled, time: f64, number: us
         Analysis::Static => "no equilibrium was found",
         Analysis::Dynamic => "no convergence",
     };
+    if let Unsettled::Energy { .. } = unsettled {
+        let (cause, advice) = (restless(prepared, unsettled), advice(unsettled, ""));
+        let cuts = 1 << MAX_CUTS;
+        let time = seconds(time);
+        return Error::NoConvergence(format!(
+            "stopped in step {number} after t = {time}: {cause}, with steps cut by up to {cuts}; {advice}"
+        ));
+    }
     let (cause, advice) = match prepared.model.analysis {
         Analysis::Static => still(prepared, unsettled),
         Analysis::Dynamic => (
@@ -120,9 +128,8 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
             )
         }
         Unsettled::Energy { made, supplied } => format!(
-            "joints that open and close within steps have made {} % of the energy supplied, more than \
-             time.energy_tolerance = {}",
-            short_to(2, 100. * made / supplied),
+            "joints that open and close within steps have made {}, more than time.energy_tolerance = {}",
+            of_supplied(*made, *supplied),
             prepared.model.time.energy.share
         ),
         Unsettled::Loose { body, .. } => format!("the joints do not hold {}", prepared.system.loose[*body].name),

@@ -27,7 +27,7 @@ pub struct TimeStepping {
     #[serde(default, deserialize_with = "range::hht")]
     #[schemars(extend("minimum" = -1.0 / 3.0, "maximum" = 0))]
     pub hht: f64,
-    /// Share of the energy supplied (initial motion, work of loads and free field) that joints which open, close or begin to slip within steps may make [-], greater than 0 and less than 1. Steps that make more than their part of it are cut in half, up to five times; a run whose joints make more ends without convergence. Default: 0.02, and steps are cut from 0.01 on.
+    /// Share of the energy supplied (initial motion, work of loads and free field) that joints which open, close or begin to slip within steps may make [-], greater than 0 and less than 1. From half of it on steps that make more than their part of the rest are cut in half, up to five times; a run whose joints make more than all of it ends without convergence. Default: 0.02.
     #[serde(default, deserialize_with = "range::optional_tolerance")]
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub energy_tolerance: Option<f64>,

@@ -42,14 +42,19 @@ pub(super) fn follow(mesh: &Mesh, opened: &mut Mesh, lines: &[InterfaceLine], fa
             opened.groups.push(Group { name: format!("{}{side}", group.name), dimension: group.dimension, cells });
         }
     }
+    let copied: BTreeSet<usize> = copies.keys().map(|&(_, node)| node).collect();
     for point in mesh.groups.iter().filter(|g| g.dimension == 0) {
-        if let [cell] = point.cells[..] {
-            add_nodes_of_surfaces(mesh, opened, &point.name, mesh.cells[cell].nodes[0], copies);
+        let node = |cell: usize| mesh.cells[cell].nodes[0];
+        if let [cell] = point.cells[..]
+            && copied.contains(&node(cell))
+        {
+            add_nodes_of_surfaces(mesh, opened, &point.name, node(cell), copies);
         }
     }
 }
 
-/// Where more than two nodes lie at the place of a point, a group for each surface that has one of them.
+/// Where more than two nodes lie at the place of a point, a group for each surface that has one of them. A surface that is
+/// called as a side comes before it: which interface's side is meant is not clear there.
 fn add_nodes_of_surfaces(mesh: &Mesh, opened: &mut Mesh, point: &str, node: usize, copies: &Copies) {
     let faces: Vec<usize> = (0..mesh.cells.len())
         .filter(|&cell| mesh.cells[cell].shape.dimension() == 2 && mesh.cells[cell].nodes.contains(&node))
@@ -66,6 +71,7 @@ fn add_nodes_of_surfaces(mesh: &Mesh, opened: &mut Mesh, point: &str, node: usiz
             let cells = vec![opened.cells.len()];
             opened.cells.push(Cell { shape: Shape::Point, nodes: vec![own] });
             let name = format!("{point}{SIDE}{}", surface.name);
+            opened.groups.retain(|group| group.dimension > 0 || group.name != name);
             opened.groups.push(Group { name, dimension: 0, cells });
         }
     }

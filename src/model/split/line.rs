@@ -5,7 +5,7 @@ use crate::model::mesh::Mesh;
 use crate::model::sides::{Edge, Sides, edge};
 use crate::number::place;
 use crate::{Error, Result};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// A line of a seam with the faces on its two sides.
 pub(super) struct InterfaceLine {
@@ -26,6 +26,7 @@ pub(super) fn interface_lines(mesh: &Mesh, seams: &[Seam], faces_at: &Sides) -> 
         let role = format!("interface \"{}\": its body", seam.curve);
         let faces: BTreeSet<usize> = mesh.group_of(&seam.body, 2, &role)?.cells.iter().copied().collect();
         let curve = mesh.group_of(&seam.curve, 1, "interface")?;
+        let turned = turned(mesh, &curve.cells);
         for &cell in &curve.cells {
             if let Some(&other) = taken.get(&edge(&mesh.cells[cell].nodes)) {
                 return Err(Error::input(format!(
@@ -37,23 +38,61 @@ pub(super) fn interface_lines(mesh: &Mesh, seams: &[Seam], faces_at: &Sides) -> 
                 )));
             }
             taken.insert(edge(&mesh.cells[cell].nodes), number);
-            let [body_cell, ground_cell] = two_sides(mesh, seam, cell, &faces, faces_at)?;
+            let [body_cell, ground_cell] =
+                two_sides(mesh, seam, &Line { cell, is_turned: turned[&cell] }, &faces, faces_at)?;
             lines.push(InterfaceLine { seam: number, cell, ground_cell, body_cell });
         }
     }
     Ok(lines)
 }
 
+/// A line of a curve.
+struct Line {
+    cell: usize,
+    /// whether it runs against the first line of its chain
+    is_turned: bool,
+}
+
+/// Whether each line of a curve runs against the first one of its chain, in which every line begins where the one before
+/// ends. A chain ends where more than two lines of the curve meet.
+fn turned(mesh: &Mesh, lines: &[usize]) -> BTreeMap<usize, bool> {
+    let ends = |line: usize| [mesh.cells[line].nodes[0], mesh.cells[line].nodes[1]];
+    let mut lines_at: HashMap<usize, Vec<usize>> = HashMap::new();
+    lines.iter().for_each(|&line| ends(line).into_iter().for_each(|end| lines_at.entry(end).or_default().push(line)));
+    let mut turned = BTreeMap::new();
+    for &first in lines {
+        if turned.contains_key(&first) {
+            continue;
+        }
+        turned.insert(first, false);
+        let mut reached = vec![first];
+        while let Some(line) = reached.pop() {
+            for node in ends(line) {
+                let [a, b] = lines_at[&node][..] else { continue };
+                let next = if a == line { b } else { a };
+                if !turned.contains_key(&next) {
+                    let both_begin_or_end = (ends(line)[0] == node) == (ends(next)[0] == node);
+                    turned.insert(next, turned[&line] != both_begin_or_end);
+                    reached.push(next);
+                }
+            }
+        }
+    }
+    turned
+}
+
 /// The faces on the body's side and on the ground's. A crack inside its body has the body's side on the left of the
-/// line as it is drawn.
-fn two_sides(mesh: &Mesh, seam: &Seam, cell: usize, body: &BTreeSet<usize>, faces_at: &Sides) -> Result<[usize; 2]> {
-    let nodes = &mesh.cells[cell].nodes;
+/// first line as it is drawn.
+fn two_sides(mesh: &Mesh, seam: &Seam, line: &Line, body: &BTreeSet<usize>, faces_at: &Sides) -> Result<[usize; 2]> {
+    let nodes = &mesh.cells[line.cell].nodes;
     let beside = faces_at.get(&edge(nodes)).map_or(&[][..], Vec::as_slice);
     let inside = beside.iter().filter(|(face, _)| body.contains(face)).count();
     match beside {
         [(a, _), (b, _)] if inside == 1 => Ok(if body.contains(a) { [*a, *b] } else { [*b, *a] }),
         // faces run anticlockwise: the one on the left runs along the line
-        [(a, side), (b, _)] if inside == 2 => Ok(if side[0] == nodes[0] { [*a, *b] } else { [*b, *a] }),
+        [(a, side), (b, _)] if inside == 2 => {
+            Ok(if (side[0] == nodes[0]) != line.is_turned { [*a, *b] } else { [*b, *a] })
+        }
         _ => {
             let place = place(mesh.points[nodes[0]]);
             Err(Error::input(format!(
