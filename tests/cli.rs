@@ -220,7 +220,7 @@ fn names_that_do_not_fit_the_mesh_are_refused_with_those_that_exist() {
             ),
             (
                 "pressure inside the solid",
-                "block.json --set interfaces={} --set loads={\"interface\":{\"pressure\":{\"law\":\"step\",\"peak\":1}}}",
+                "block.json --set interfaces={\"interface\":\"bonded\"} --set loads={\"interface\":{\"pressure\":{\"law\":\"step\",\"peak\":1}}}",
                 &[
                     "load or boundary \"interface\": its line at",
                     "has a surface on both sides; it must lie on the border",

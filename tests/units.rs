@@ -147,7 +147,7 @@ fn a_unit_holds_for_the_mesh_of_the_command_line_and_all_that_is_printed_is_in_m
         assert_eq!(without_names(&bench.run_line(line).stdout), metres, "{line}");
     }
     // a load inside the solid is refused at its place in metres
-    let inner = "--set loads={\"interface\":{\"pressure\":{\"law\":\"step\",\"peak\":1}}} --set interfaces={}";
+    let inner = "--set loads={\"interface\":{\"pressure\":{\"law\":\"step\",\"peak\":1}}} --set interfaces={\"interface\":\"bonded\"}";
     let sentence = |more: &str| without_names(&bench.run_line(&format!("check block.json {inner} {more}")).stderr);
     let there = sentence("");
     assert!(there.contains(") m"), "{there}");
