@@ -62,14 +62,15 @@ fn the_twin_pipes_have_their_first_frequencies() {
 }
 
 /// The consistent tangent of a piecewise linear law: one iteration a step while nothing changes, few when it does.
-/// Without the coupling of shear to pressure it takes more. It is 1.145; where nobody looks where the jumps are going
-/// 1.65, since what slips is then taken for sticking at first.
+/// Without the coupling of shear to pressure it takes more. It is 1.077; 1.145 if the jumps are expected to go on with
+/// their acceleration as well, and 1.65 if they are expected to stay, since what slips would stick at first. 1.1 lies
+/// between.
 #[test]
 fn newton_seldom_takes_more_than_one_iteration_a_step() {
     let run = default_run();
     let iterations = run.number("/iterations") / run.number("/steps");
     println!("iterations a step: {iterations}");
-    assert!(iterations < 1.3 && run.number("/contact/cut_steps") == 0., "{iterations}");
+    assert!(iterations < 1.1 && run.number("/contact/cut_steps") == 0., "{iterations}");
 }
 
 /// Work of the pressure = kinetic + strain + joints + damping + friction, to round-off of the sums.

@@ -95,14 +95,13 @@ impl Law {
         forces
     }
 
-    /// Where the jumps are going: j + dt j' + dt^2 j'' / 2; without inertia where they are.
+    /// Where the jumps are going: j + dt j'; without inertia where they are. The acceleration of a point that has just
+    /// changed its status changes its sign from step to step: it would foresee changes that do not come.
     pub fn expected_jumps(&self, system: &System, old: &State) -> Vec<f64> {
-        let [q, v, a] = [&old.q, &old.v, &old.a].map(|x| system.jumps(x));
+        let [q, v] = [&old.q, &old.v].map(|x| system.jumps(x));
         match self {
             Law::Static { .. } => q.to_vec(),
-            Law::Dynamic(Dynamic { constants: Constants { dt, .. }, .. }) => {
-                (0..q.len()).map(|i| q[i] + dt * v[i] + dt * dt / 2. * a[i]).collect()
-            }
+            Law::Dynamic(dynamic) => q.iter().zip(v).map(|(q, v)| q + dynamic.constants.dt * v).collect(),
         }
     }
 
