@@ -202,7 +202,8 @@ impl Contact {
         let branches = joints.branches(&jumps);
         let on_its_line = |i: usize| {
             let (old, new) = (&before.branches.responses[i], &branches.responses[i]);
-            old.status == new.status && old.tangent == new.tangent
+            // two branches of a dashpot have one tangent: where it is cut either way
+            joints.damping.is_none() && old.status == new.status && old.tangent == new.tangent
         };
         let off_its_line = |(i, point): (usize, &JointPoint)| {
             let slope = tangents[i] + self.reference(i);
