@@ -6,9 +6,9 @@ mod support;
 
 use coralpipe::model::mesh::{Mesh, Shape};
 use coralpipe::model::resolve::Model;
+use coralpipe::solve::free_body::Way;
 use coralpipe::solve::free_motion::{Free, FreeMotions};
 use coralpipe::solve::law::Scheme;
-use coralpipe::solve::least_motion::Way;
 use coralpipe::solve::start;
 use coralpipe::solve::step::{Step, Stepper};
 use coralpipe::solve::system::{State, System};

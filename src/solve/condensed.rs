@@ -3,14 +3,14 @@
 //! them, one backward sweep.
 
 use super::condensate::Condensate;
-use super::contact::{Contact, Problem, Solution, distance, ratio};
+use super::contact::{Contact, Problem, Solution};
 use super::joints::Joints;
 use super::least_motion::Springs;
 use super::system::{State, System};
 use super::tresca::SWEEPS;
 use super::unsettled::Unsettled;
 use crate::model::case::Newton;
-use crate::sparse::vector::{add, norm};
+use crate::sparse::vector::{add, distance, norm, ratio};
 use crate::sparse::{Factor, NotPositiveDefinite, Symbolic};
 use sprs::CsMat;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub struct Condensed {
 }
 
 /// Where a step comes from.
-pub struct Before<'a> {
+pub struct Previous<'a> {
     /// displacements of the border [m]
     pub border: &'a [f64],
     pub jumps: &'a [f64],
@@ -32,10 +32,10 @@ pub struct Before<'a> {
     pub largest_force: f64,
 }
 
-impl<'a> Before<'a> {
-    pub fn of(system: &System, state: &'a State) -> Before<'a> {
+impl<'a> Previous<'a> {
+    pub fn of(system: &System, state: &'a State) -> Previous<'a> {
         let (displacements, jumps) = state.q.split_at(system.unknowns.count);
-        Before { border: &displacements[system.unknowns.border..], jumps, largest_force: state.largest_force }
+        Previous { border: &displacements[system.unknowns.border..], jumps, largest_force: state.largest_force }
     }
 }
 
@@ -91,7 +91,7 @@ impl Condensed {
         self.factor.condense(&mut x);
         let joints = Joints { interface: &system.interface, old: &old.joints, damping: None };
         let at_border = &mut x[system.unknowns.border..];
-        let solution = self.settle(at_border, joints, &Before::of(system, old), system.jumps(&old.q))?;
+        let solution = self.settle(at_border, joints, &Previous::of(system, old), system.jumps(&old.q))?;
         at_border.copy_from_slice(&solution.border);
         self.factor.expand(&mut x);
         x.extend(&solution.jumps);
@@ -108,12 +108,12 @@ impl Condensed {
         &mut self,
         b: &[f64],
         joints: Joints,
-        before: &Before,
+        previous: &Previous,
         expected: &[f64],
     ) -> Result<Solution, Unsettled> {
         match self.springs.clone() {
-            None => self.settle_once(b, &joints, before, expected),
-            Some(springs) => self.settle_with_least_motion(&springs, b, &joints, before),
+            None => self.settle_once(b, &joints, previous, expected),
+            Some(springs) => self.settle_with_least_motion(&springs, b, &joints, previous),
         }
     }
 
@@ -124,19 +124,19 @@ impl Condensed {
         springs: &Springs,
         b: &[f64],
         joints: &Joints,
-        before: &Before,
+        previous: &Previous,
     ) -> Result<Solution, Unsettled> {
         let tolerance = self.contact.options.tolerance;
-        let (mut anchor, mut expected) = (before.border.to_vec(), before.jumps.to_vec());
+        let (mut anchor, mut expected) = (previous.border.to_vec(), previous.jumps.to_vec());
         let (mut iterations, mut carried_before) = (0, f64::INFINITY);
         for round in 1.. {
             let mut pulled = b.to_vec();
             add(&mut pulled, 1., &springs.forces(&anchor));
-            let found = self.settle_once(&pulled, joints, before, &expected)?;
+            let found = self.settle_once(&pulled, joints, previous, &expected)?;
             iterations += found.iterations;
             let displacement_test = match round {
                 1 => found.displacement_test,
-                _ => ratio(distance(&found.jumps, &expected), distance(&found.jumps, before.jumps)),
+                _ => ratio(distance(&found.jumps, &expected), distance(&found.jumps, previous.jumps)),
             };
             let moved: Vec<f64> = found.border.iter().zip(&anchor).map(|(u, u_0)| u - u_0).collect();
             let forces = springs.forces(&moved);
@@ -161,12 +161,12 @@ impl Condensed {
         &mut self,
         b: &[f64],
         joints: &Joints,
-        before: &Before,
+        previous: &Previous,
         expected: &[f64],
     ) -> Result<Solution, Unsettled> {
         let condensate = &self.contact.condensate;
         let free = condensate.jumps(&condensate.displacements(b));
-        let (last, largest_force) = (before.jumps, before.largest_force);
+        let (last, largest_force) = (previous.jumps, previous.largest_force);
         self.contact.solve(&Problem { joints, b, free: &free, last, expected, largest_force })
     }
 }

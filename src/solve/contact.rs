@@ -13,7 +13,7 @@ use super::tresca::FixedPoint;
 use super::unsettled::Unsettled;
 use crate::model::case::Newton;
 use crate::physics::joint::{Response, Status};
-use crate::sparse::vector::{add, norm};
+use crate::sparse::vector::{add, distance, norm, ratio};
 use nalgebra::{Matrix2, Vector2};
 use std::sync::Arc;
 
@@ -258,15 +258,6 @@ impl Contact {
     pub(super) fn reference(&self, point: usize) -> Matrix2<f64> {
         self.closed.get(point).copied().unwrap_or_default()
     }
-}
-
-pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-}
-
-/// a / b, and 0 for 0 / 0.
-pub(super) fn ratio(a: f64, b: f64) -> f64 {
-    if a == 0. { 0. } else { a / b }
 }
 
 #[cfg(test)]

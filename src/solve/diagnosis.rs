@@ -1,9 +1,9 @@
 //! Why Newton's method on the jumps ended without a solution.
 
-use super::contact::{Contact, Iterate, Problem, ratio};
+use super::contact::{Contact, Iterate, Problem};
 use super::unsettled::{Place, Unsettled};
 use crate::physics::joint::Status;
-use crate::sparse::vector::norm;
+use crate::sparse::vector::{norm, ratio};
 
 impl Contact {
     /// Why Newton ends where it stands, `before` that with these statuses.

@@ -1,9 +1,10 @@
 //! Motions that no joint resists: where a body has one, equilibrium without inertia is not unique.
 
-use super::contact::ratio;
-use super::least_motion::{Loose, SHARE, Way};
+use super::free_body::{FreeBody, Way};
+use super::least_motion::SHARE;
 use super::system::{State, System};
 use crate::physics::joint::Friction;
+use crate::sparse::vector::ratio;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use std::sync::Arc;
 
@@ -22,7 +23,7 @@ pub enum Free {
 
 /// The rigid motions of all bodies that joints alone hold, as joints see them.
 pub struct FreeMotions {
-    bodies: Arc<[Loose]>,
+    bodies: Arc<[FreeBody]>,
     /// (number of the body, way) of each motion
     motions: Vec<(usize, Way)>,
     /// of each joint point the (motion, g) that move it, g the local jump at 1 m
@@ -38,8 +39,11 @@ impl FreeMotions {
         let interface = &system.interface;
         let mut motions = Vec::new();
         let mut seen = vec![Vec::new(); interface.points.len()];
-        for (body, (way, motion)) in
-            system.loose.iter().enumerate().flat_map(|(i, body)| body.motions.iter().map(move |motion| (i, motion)))
+        for (body, (way, motion)) in system
+            .free_bodies
+            .iter()
+            .enumerate()
+            .flat_map(|(i, body)| body.motions.iter().map(move |motion| (i, motion)))
         {
             let mut u = vec![0.; system.unknowns.count];
             motion.iter().for_each(|&(unknown, displacement)| u[unknown] = displacement);
@@ -59,13 +63,13 @@ impl FreeMotions {
             })
             .collect();
         let stiffness = closed.iter().map(|[d, _]| d[(1, 1)]).sum();
-        FreeMotions { bodies: system.loose.clone(), motions, seen, closed, stiffness }
+        FreeMotions { bodies: system.free_bodies.clone(), motions, seen, closed, stiffness }
     }
 
     /// Those that the joints leave, by body: eigenvalues below [`SHARE`] of A = sum area g' D g over the
     /// joint points that touch, in proportion to its diagonal where all are closed and stick. What has friction sticks here
     /// too: a joint that slips resists the way back.
-    pub fn of(&self, touches: &[bool]) -> Vec<(&Loose, Free)> {
+    pub fn of(&self, touches: &[bool]) -> Vec<(&FreeBody, Free)> {
         let touched: Vec<bool> =
             (0..self.bodies.len()).map(|body| self.points_of(body).any(|point| touches[point])).collect();
         let nowhere = (0..self.bodies.len()).filter(|&body| !touched[body] && self.points_of(body).next().is_some());

@@ -6,6 +6,7 @@ pub mod condensed;
 pub mod contact;
 mod diagnosis;
 pub mod energy;
+pub mod free_body;
 pub mod free_field;
 pub mod free_motion;
 pub mod interface;

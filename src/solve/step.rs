@@ -1,6 +1,6 @@
 //! One step in time, of one system or of several that share their factor.
 
-use super::condensed::{Before, Condensed};
+use super::condensed::{Condensed, Previous};
 use super::contact::Solution;
 use super::energy::Forms;
 use super::free_field::Column;
@@ -107,7 +107,7 @@ impl Stepper {
         let joints =
             Joints { interface: &system.interface, old: &old.joints, damping: self.law.joint_damping(system, old) };
         let expected = self.law.expected_jumps(system, old);
-        self.condensed.settle(border, joints, &Before::of(system, old), &expected)
+        self.condensed.settle(border, joints, &Previous::of(system, old), &expected)
     }
 
     /// The columns beyond free-field sides, which know nothing of the model, one step later.

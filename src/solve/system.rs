@@ -1,9 +1,9 @@
 //! The equations M a + C v + K u + r(j) = f(t) in the unknowns q, and the state that moves.
 
 use super::assembly;
+use super::free_body::FreeBody;
 use super::free_field::Column;
 use super::interface::{Interface, JointState};
-use super::least_motion::Loose;
 use super::unknowns::Unknowns;
 use crate::Result;
 use crate::model::moving_front::MovingFront;
@@ -43,7 +43,7 @@ pub struct System {
     /// the ground beyond free-field sides
     pub columns: Vec<Column>,
     /// the bodies that joints alone hold
-    pub loose: Arc<[Loose]>,
+    pub free_bodies: Arc<[FreeBody]>,
     /// (unknown, N per unit of the pulse) and history
     loads: Vec<(Vec<(usize, f64)>, Pulse)>,
     /// loads that do not act everywhere at once
@@ -95,7 +95,7 @@ impl System {
             gravity: (model.gravity > 0.).then(|| assembly::gravity(model, &unknowns).into()),
             reactions: None,
             columns: columns(model, &unknowns, orders)?,
-            loose: Loose::all(model, &unknowns),
+            free_bodies: FreeBody::all(model, &unknowns),
             loads: loads(model, &unknowns),
             fronts: fronts(model),
             unknowns: unknowns.into(),
@@ -121,7 +121,7 @@ impl System {
             interface: interface(model, &self.unknowns),
             gravity: self.gravity.clone(),
             reactions: None,
-            loose: self.loose.clone(),
+            free_bodies: self.free_bodies.clone(),
             loads: loads(model, &self.unknowns),
             fronts: fronts(model),
         })

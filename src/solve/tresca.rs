@@ -1,10 +1,10 @@
 //! The fixed point on Tresca's bound, for contact problems in which Newton's statuses run in a circle.
 
-use super::contact::{Contact, Problem, distance, ratio};
+use super::contact::{Contact, Problem};
 use super::inverse::dense_times;
 use super::joints::Joints;
 use crate::physics::joint::Response;
-use crate::sparse::vector::{dot, norm};
+use crate::sparse::vector::{distance, dot, norm, ratio};
 use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 

@@ -19,6 +19,16 @@ pub fn norm(x: &[f64]) -> f64 {
     dot(x, x).sqrt()
 }
 
+/// |x - y|.
+pub fn distance(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt()
+}
+
+/// a / b, and 0 for 0 / 0.
+pub fn ratio(a: f64, b: f64) -> f64 {
+    if a == 0. { 0. } else { a / b }
+}
+
 /// x <- x + factor y.
 pub fn add(x: &mut [f64], factor: f64, y: &[f64]) {
     x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);

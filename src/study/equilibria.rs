@@ -4,8 +4,8 @@ use crate::model::case::Analysis;
 use crate::model::resolve::Model;
 use crate::number::seconds;
 use crate::physics::joint::Friction;
+use crate::solve::free_body::Way;
 use crate::solve::free_motion::{Free, FreeMotions};
-use crate::solve::least_motion::Way;
 use crate::solve::system::{State, System};
 
 /// Share of the largest force of the run below which normal forces are what a load that has ended leaves.

@@ -106,7 +106,7 @@ fn moving_bodies(prepared: &Prepared, unsettled: &Unsettled) -> Vec<String> {
     let sentences: Vec<String> = model.bodies.iter().filter_map(sentence).collect();
     match unsettled {
         Unsettled::Loose { body, .. } if sentences.is_empty() => {
-            let name = &prepared.system.loose[*body].name;
+            let name = &prepared.system.free_bodies[*body].name;
             vec![format!("the joints do not hold {name}, which tips or slides although some of them stick")]
         }
         _ => sentences,
@@ -132,7 +132,7 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
             of_supplied(*made, *supplied),
             prepared.model.time.energy.share
         ),
-        Unsettled::Loose { body, .. } => format!("the joints do not hold {}", prepared.system.loose[*body].name),
+        Unsettled::Loose { body, .. } => format!("the joints do not hold {}", prepared.system.free_bodies[*body].name),
         Unsettled::Overflow(first) => {
             let at = match *first {
                 Place::JointPoint(i) => format!(", first at {}", places(prepared, &[i])),
