@@ -13,6 +13,9 @@ impl Contact {
         let mut best = solution;
         let mut apart = self.apart(&best.jumps, &best.border);
         for _ in 0..REFINEMENTS {
+            if norm(&apart) == 0. {
+                break;
+            }
             let missed = self.condensate.forces(&apart);
             let tangents = self.tangents(&best.responses);
             let step = self.inverse.solve(&self.condensate.schur, problem.joints.interface, &tangents, &missed);
@@ -20,7 +23,8 @@ impl Contact {
             let branches = problem.joints.branches(&jumps);
             let border = self.border(problem, &branches);
             let still_apart = self.apart(&jumps, &border);
-            if norm(&still_apart) > norm(&apart) / 2. {
+            // what is not a number halves nothing
+            if !(norm(&still_apart) <= norm(&apart) / 2.) {
                 break;
             }
             apart = still_apart;
