@@ -28,7 +28,7 @@ pub struct Previous<'a> {
     /// displacements of the border [m]
     pub border: &'a [f64],
     pub jumps: &'a [f64],
-    /// of the run so far [N]
+    /// of the run so far [N]; 0 with inertia
     pub largest_force: f64,
 }
 

@@ -107,7 +107,10 @@ impl Stepper {
         let joints =
             Joints { interface: &system.interface, old: &old.joints, damping: self.law.joint_damping(system, old) };
         let expected = self.law.expected_jumps(system, old);
-        self.condensed.settle(border, joints, &Previous::of(system, old), &expected)
+        // gravity's forces are no measure of those that have inertia
+        let largest_force = if let Law::Static { .. } = self.law { old.largest_force } else { 0. };
+        let previous = Previous { largest_force, ..Previous::of(system, old) };
+        self.condensed.settle(border, joints, &previous, &expected)
     }
 
     /// The columns beyond free-field sides, which know nothing of the model, one step later.
