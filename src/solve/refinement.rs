@@ -24,7 +24,8 @@ impl Contact {
             let border = self.border(problem, &branches);
             let still_apart = self.apart(&jumps, &border);
             // what is not a number halves nothing
-            if !(norm(&still_apart) <= norm(&apart) / 2.) {
+            let halved = norm(&still_apart) <= norm(&apart) / 2.;
+            if !halved {
                 break;
             }
             apart = still_apart;
