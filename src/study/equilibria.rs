@@ -19,10 +19,18 @@ pub struct Equilibria {
     motions: FreeMotions,
     /// which joint points touched in the last state
     touched: Vec<bool>,
-    /// (body, what it is free to do, since when [s]), each once
-    free: Vec<(String, Free, f64)>,
+    /// each once
+    free: Vec<FreeSince>,
     /// the largest share of shear taken up while closing, and when [s]
     shear: (f64, f64),
+}
+
+struct FreeSince {
+    /// name of the body
+    body: String,
+    free: Free,
+    /// [s]
+    time: f64,
 }
 
 impl Equilibria {
@@ -42,8 +50,8 @@ impl Equilibria {
         let touches = self.motions.touching(system, new);
         let free_now = if touches == self.touched { vec![] } else { self.motions.of(&touches) };
         for (body, free) in free_now {
-            if !self.free.iter().any(|(name, known, _)| *name == body.name && *known == free) {
-                self.free.push((body.name.clone(), free, new.time));
+            if !self.free.iter().any(|known| known.body == body.name && known.free == free) {
+                self.free.push(FreeSince { body: body.name.clone(), free, time: new.time });
             }
         }
         self.touched = touches;
@@ -55,7 +63,7 @@ impl Equilibria {
     }
 
     pub fn warnings(&self) -> Vec<String> {
-        let of_body = |(body, free, time): &(String, Free, f64)| {
+        let of_body = |FreeSince { body, free, time }: &FreeSince| {
             let since = seconds(*time);
             match free {
                 Free::Everywhere => format!(
