@@ -52,17 +52,23 @@ pub enum Ending {
 }
 
 impl<'a> Recorder<'a> {
-    /// Opens the files and records the state at t = 0; frames are written where there is a `grid` for them.
+    /// Opens the files and records the state at t = 0; displacements are counted from `origin`, the equilibrium under
+    /// gravity. Frames are written where there is a `grid` for them.
     pub fn start(
         prepared: &'a Prepared,
         folder: &'a Folder,
         start: &Accepted,
-        origin: Vec<f64>,
+        origin: State,
         grid: Option<Arc<Grid>>,
     ) -> Result<Recorder<'a>> {
         let Prepared { model, system, .. } = prepared;
         // The first file of all: it marks the others as those of a run, whatever stops this one.
         let status = Lines::create(&folder.file(STATUS), STATUS_HEADER.into())?;
+        // With inertia the case may have moved the bodies since.
+        let without_inertia = if model.analysis == Analysis::Static { start.state() } else { &origin };
+        let equilibria =
+            Equilibria::new(model, system).map(|e| e.after(system, &State::at_rest(system), without_inertia));
+        let origin = origin.q;
         let snapshots =
             Snapshots::new(model.clone(), system.clone(), origin.clone(), folder.path(), folder.name(), grid)?;
         let mut recorder = Recorder {
@@ -71,7 +77,7 @@ impl<'a> Recorder<'a> {
             status,
             ledger: start.ledger.clone(),
             contact: ContactRecord::default(),
-            equilibria: Equilibria::new(model, system).map(|e| e.after(system, &State::at_rest(system), start.state())),
+            equilibria,
             steps: 0,
             whole_steps: 0,
             iterations: 0,

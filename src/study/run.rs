@@ -176,7 +176,7 @@ fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> 
     file::create_folder(&path)?;
     let folder = Folder::prepare(&path, &case.name())?;
     replaced.iter().for_each(|sentence| screen.say(sentence));
-    let start = Accepted::start(&prepared.system, state, &origin);
+    let start = Accepted::start(&prepared.system, state, &origin.q);
     let march_and_write = || {
         let grid = Grid::new(&prepared.model, &prepared.system);
         let mut recorder = Recorder::start(&prepared, &folder, &start, origin, Some(grid.into()))?;
@@ -192,8 +192,8 @@ fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> 
     Ok(summary.table() + &one_line(&format!("results in {}", folder.path().display())) + "\n")
 }
 
-/// The state at t = 0, the unknowns that displacements are counted from, and the march from there.
-fn ready_to_march(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>, March<'_>)> {
+/// The state at t = 0, the one that displacements are counted from, and the march from there.
+fn ready_to_march(prepared: &Prepared, rest: State) -> Result<(State, State, March<'_>)> {
     let (start, march) = both(|| at_start(prepared, rest), || new_march(prepared));
     let (state, origin) = start?;
     Ok((state, origin, march?))
@@ -211,18 +211,18 @@ pub(super) fn new_march(prepared: &Prepared) -> Result<March<'_>> {
     Ok(march.map_err(|e| prepared.not_definite(e))?.with_energy_tolerance(tolerance))
 }
 
-/// The state at t = 0 from equilibrium under gravity, and the unknowns that displacements are counted from.
-pub(super) fn at_start(prepared: &Prepared, rest: State) -> Result<(State, Vec<f64>)> {
+/// The state at t = 0 from equilibrium under gravity, and the one that displacements are counted from.
+pub(super) fn at_start(prepared: &Prepared, rest: State) -> Result<(State, State)> {
     let Prepared { model, system, symbolic, .. } = prepared;
     let (state, origin) = match model.analysis {
         Analysis::Static => {
             let mut at_once = Stepper::new(system, symbolic, Scheme::Static, 0., model.newton).map_err(not_held)?;
             let start = at_once.step(system, &Step::start(rest)).map_err(|why| unsettled::at_start(prepared, &why))?;
-            (start.into_state(), State::at_rest(system).q)
+            (start.into_state(), State::at_rest(system))
         }
         Analysis::Dynamic => {
             let Initial { displacement, velocity } = &model.initial;
-            let origin = rest.q.clone();
+            let origin = rest.clone();
             let moving = start::with_motion(system, rest, displacement, velocity);
             let state = start::with_acceleration(system, symbolic, moving, model.start);
             (state.map_err(|e| prepared.not_definite(e))?, origin)

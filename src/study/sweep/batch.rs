@@ -63,7 +63,7 @@ fn march_all<'a>(
     let began = Instant::now();
     let (mut running, mut states) = (Vec::new(), Vec::new());
     for (run, (state, origin)) in ready.iter().zip(starts) {
-        let start = Accepted::start(&run.prepared.system, state, &origin);
+        let start = Accepted::start(&run.prepared.system, state, &origin.q);
         let recorder = Recorder::start(&run.prepared, &run.folder, &start, origin, grid.cloned())?;
         running.push(Running { run, march: march.sharing_factor(&run.prepared.system), recorder, began });
         states.push(start);
@@ -88,8 +88,8 @@ fn march_all<'a>(
     })
 }
 
-/// The state at t = 0, and the unknowns that displacements are counted from.
-type Start = (State, Vec<f64>);
+/// The state at t = 0, and the one that displacements are counted from.
+type Start = (State, State);
 
 fn begin<'a>(job: &'a Job, lead: &Prepared) -> Result<(Ready<'a>, Start)> {
     let mut prepared = lead.with_loads_of(job.model()?)?;
