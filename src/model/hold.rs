@@ -134,21 +134,45 @@ fn part_numbers(model: &Model, with_joints: bool) -> Vec<usize> {
 /// How these nodes can move as a rigid body, u = (a - c y, b + c x), with u = 0 where they are held; none if they
 /// cannot.
 fn free_motion(model: &Model, nodes: &[usize]) -> Option<&'static str> {
-    let held = |axis: usize| nodes.iter().filter(move |&&n| model.fixed[n][axis]).map(|&n| model.mesh.points[n]);
-    let (in_x, in_y): (Vec<_>, Vec<_>) = (held(0).collect(), held(1).collect());
-    if in_x.is_empty() || in_y.is_empty() {
-        return Some(match (in_x.is_empty(), in_y.is_empty()) {
-            (true, true) => "in x and y",
-            (true, false) => "in x",
-            _ => "in y",
-        });
+    let is_held = |axis: usize| nodes.iter().any(|&n| model.fixed[n][axis]);
+    match (is_held(0), is_held(1)) {
+        (false, false) => Some("in x and y"),
+        (false, true) => Some("in x"),
+        (true, false) => Some("in y"),
+        (true, true) => pivot(model, nodes).map(|_| "against turning"),
     }
-    // The rows (1, 0, -y) and (0, 1, x) have rank 3 unless all y held in x are equal and all x held in y are.
-    let spread = |values: Vec<f64>| {
-        let ends = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(*v), high.max(*v)]);
-        ends[1] - ends[0]
-    };
-    let size = [0, 1].map(|i| spread(nodes.iter().map(|&n| model.mesh.points[n][i]).collect()));
-    let arm = spread(in_x.iter().map(|p| p[1]).collect()).max(spread(in_y.iter().map(|p| p[0]).collect()));
-    (arm <= ROTATION * size[0].max(size[1])).then_some("against turning")
+}
+
+/// The point about which these nodes can turn as a rigid body, if supports leave them a turn: x of those held in y, y
+/// of those held in x, else the middle.
+pub fn pivot(model: &Model, nodes: &[usize]) -> Option<[f64; 2]> {
+    let all = [0, 1].map(|i| Range::of(nodes.iter().map(|&n| model.mesh.points[n][i])));
+    let held = |axis: usize| nodes.iter().filter(move |&&n| model.fixed[n][axis]).map(|&n| model.mesh.points[n]);
+    // The rows (1, 0, -y) and (0, 1, x) leave a turn if all y held in x are equal and all x held in y are.
+    let places = [Range::of(held(1).map(|p| p[0])), Range::of(held(0).map(|p| p[1]))];
+    let least = ROTATION * all[0].length().max(all[1].length());
+    let turns = places.iter().all(|place| place.length() <= least);
+    turns.then(|| [0, 1].map(|i| if places[i].is_empty() { all[i].middle() } else { places[i].middle() }))
+}
+
+/// From the least to the greatest of some coordinates [m].
+struct Range([f64; 2]);
+
+impl Range {
+    fn of(values: impl Iterator<Item = f64>) -> Range {
+        Range(values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]))
+    }
+
+    fn is_empty(&self) -> bool {
+        self.0[0] > self.0[1]
+    }
+
+    /// Negative of none.
+    fn length(&self) -> f64 {
+        self.0[1] - self.0[0]
+    }
+
+    fn middle(&self) -> f64 {
+        (self.0[0] + self.0[1]) / 2.
+    }
 }

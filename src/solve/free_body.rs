@@ -1,7 +1,7 @@
 //! Bodies that joints alone hold, and the rigid motions that supports leave them.
 
 use super::unknowns::Unknowns;
-use crate::model::hold::{Part, held_by_joints};
+use crate::model::hold::{Part, held_by_joints, pivot};
 use crate::model::resolve::Model;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -43,11 +43,12 @@ impl FreeBody {
     }
 }
 
-/// A shift along each axis that no support holds, and a turn about the middle where nothing is held at all; the farthest
-/// node goes 1 m.
+/// A shift along each axis in which no support holds the body, and the turn that supports leave it; the farthest node
+/// goes 1 m.
 fn motions(model: &Model, unknowns: &Unknowns, nodes: &[usize], of_part: &[usize]) -> Vec<(Way, Motion)> {
-    let middle = [0, 1].map(|i| nodes.iter().map(|&n| model.mesh.points[n][i]).sum::<f64>() / nodes.len() as f64);
-    let arm = |n: usize| [0, 1].map(|i| model.mesh.points[n][i] - middle[i]);
+    let pivot = pivot(model, of_part);
+    let about = pivot.unwrap_or_default();
+    let arm = |n: usize| [0, 1].map(|i| model.mesh.points[n][i] - about[i]);
     let farthest = nodes.iter().map(|&n| arm(n)[0].hypot(arm(n)[1])).fold(f64::MIN_POSITIVE, f64::max);
     let displacement = |way: Way, n: usize| match way {
         Way::X => [1., 0.],
@@ -58,7 +59,7 @@ fn motions(model: &Model, unknowns: &Unknowns, nodes: &[usize], of_part: &[usize
     let is_free = |way: &Way| match way {
         Way::X => !held[0],
         Way::Y => !held[1],
-        Way::Turn => held == [false; 2],
+        Way::Turn => pivot.is_some(),
     };
     let motion = |way: Way| {
         let of_node = |&n: &usize| {
