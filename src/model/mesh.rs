@@ -68,6 +68,15 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The larger of its extents along x and y [m].
+    pub fn size(&self) -> f64 {
+        let along = |axis: usize| {
+            let least = self.points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+            self.points.iter().map(|p| p[axis] - least).fold(0., f64::max)
+        };
+        along(0).max(along(1))
+    }
+
     /// The ground's side of a group of curves or points that lies on an interface; none for other groups.
     pub fn ground_side(&self, group: &Group) -> Option<&Group> {
         let name = format!("{}{GROUND_SIDE}", group.name);

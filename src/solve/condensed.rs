@@ -21,6 +21,8 @@ pub struct Condensed {
     contact: Contact,
     /// part of A, where joints alone hold a body
     springs: Option<Springs>,
+    /// the largest displacement that is accepted [m]
+    reach: f64,
 }
 
 /// Where a step comes from.
@@ -46,6 +48,10 @@ const NOT_HELD: f64 = 0.999;
 /// A body that has not come to rest after so many rounds slides or falls.
 const ROUNDS: usize = 50;
 
+/// Without inertia, times the size of the model that no displacement may exceed: it is round-off of a matrix that is nearly
+/// singular, or nonsense.
+pub const FAR: f64 = 1e6;
+
 /// Of `newton.tolerance`, for what the springs of least motion may carry of the largest force.
 const CARRIED: f64 = 1e-3;
 
@@ -59,7 +65,12 @@ impl Condensed {
     ) -> Result<Condensed, NotPositiveDefinite> {
         let factor: Arc<Factor> = symbolic.factor(a)?.into();
         let condensate = Condensate::new(&factor, &system.unknowns, false);
-        Ok(Condensed { factor, contact: Contact::new(condensate.into(), [].into(), options), springs: None })
+        Ok(Condensed {
+            factor,
+            contact: Contact::new(condensate.into(), [].into(), options),
+            springs: None,
+            reach: f64::INFINITY,
+        })
     }
 
     /// A = K of bodies that may hang on joints alone, and the springs of least motion. Closed joints are put in, whose
@@ -73,7 +84,12 @@ impl Condensed {
         }
         let factor: Arc<Factor> = symbolic.factor(&matrix)?.into();
         let condensate = Condensate::new(&factor, &system.unknowns, true);
-        Ok(Condensed { factor, contact: Contact::new(condensate.into(), closed.into(), options), springs })
+        Ok(Condensed {
+            factor,
+            contact: Contact::new(condensate.into(), closed.into(), options),
+            springs,
+            reach: FAR * system.size,
+        })
     }
 
     /// For another system of the same matrix, whose joints have a history of their own.
@@ -82,6 +98,7 @@ impl Condensed {
             factor: self.factor.clone(),
             contact: self.contact.sharing_condensate(),
             springs: self.springs.clone(),
+            reach: self.reach,
         }
     }
 
@@ -91,7 +108,7 @@ impl Condensed {
         self.factor.condense(&mut x);
         let joints = Joints { interface: &system.interface, old: &old.joints, damping: None };
         let at_border = &mut x[system.unknowns.border..];
-        let solution = self.settle(at_border, joints, &Previous::of(system, old), system.jumps(&old.q))?;
+        let solution = self.settle(system, at_border, joints, &Previous::of(system, old), system.jumps(&old.q))?;
         at_border.copy_from_slice(&solution.border);
         self.factor.expand(&mut x);
         x.extend(&solution.jumps);
@@ -106,14 +123,19 @@ impl Condensed {
     /// joints, which move on towards the `expected` jumps.
     pub fn settle(
         &mut self,
+        system: &System,
         b: &[f64],
         joints: Joints,
         previous: &Previous,
         expected: &[f64],
     ) -> Result<Solution, Unsettled> {
-        match self.springs.clone() {
+        let solution = match self.springs.clone() {
             None => self.settle_once(b, &joints, previous, expected),
             Some(springs) => self.settle_with_least_motion(&springs, b, &joints, previous),
+        }?;
+        match solution.border.iter().position(|u| u.abs() > self.reach) {
+            Some(i) => Err(Unsettled::Far { node: system.unknowns.node_of(system.unknowns.border + i) }),
+            None => Ok(solution),
         }
     }
 

@@ -110,7 +110,7 @@ impl Stepper {
         // gravity's forces are no measure of those that have inertia
         let largest_force = if let Law::Static { .. } = self.law { old.largest_force } else { 0. };
         let previous = Previous { largest_force, ..Previous::of(system, old) };
-        self.condensed.settle(border, joints, &previous, &expected)
+        self.condensed.settle(system, border, joints, &previous, &expected)
     }
 
     /// The columns beyond free-field sides, which know nothing of the model, one step later.

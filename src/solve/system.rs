@@ -19,6 +19,8 @@ use std::sync::{Arc, OnceLock};
 /// K, M and C hold the bodies and what lets waves out of them; they share one pattern, so that sums of them are sums of
 /// their values. What is counted by reference belongs to all cases of a sweep.
 pub struct System {
+    /// the larger of the mesh's extents along x and y [m]
+    pub size: f64,
     pub unknowns: Arc<Unknowns>,
     /// [N/m]
     pub stiffness: Arc<CsMat<f64>>,
@@ -87,6 +89,7 @@ impl System {
         let (stiffness, mass) = assembly::stiffness_and_mass(model, &unknowns);
         let damping = assembly::dashpots(model, &unknowns, scaled(&mass, 0.));
         Ok(System {
+            size: model.mesh.size(),
             dashpots: (!model.absorbers.is_empty()).then(|| Arc::new(without_zeros(&damping))),
             interleaved: Arc::default(),
             rayleigh: Rayleigh::default(),
@@ -109,6 +112,7 @@ impl System {
     pub fn with_loads_of(&self, model: &Model) -> Result<System> {
         let columns = self.columns.iter().zip(&model.free_fields);
         Ok(System {
+            size: self.size,
             columns: columns.map(|(column, side)| column.with_loads_of(side)).collect::<Result<_>>()?,
             unknowns: self.unknowns.clone(),
             stiffness: self.stiffness.clone(),

@@ -10,6 +10,8 @@ pub enum Unsettled {
     Residual { relative: f64, largest: Option<usize>, last: Vec<Status> },
     /// a body, by its number, goes on moving whatever the joints do, and how they stood last
     Loose { body: usize, last: Vec<Status> },
+    /// a node goes farther than any model that is held
+    Far { node: usize },
     /// numbers beyond floating point
     Overflow(Place),
     /// joints have made more energy than is tolerated [J]

@@ -7,6 +7,7 @@ use crate::model::split::Seam;
 use crate::number::{place, seconds};
 use crate::physics::joint::Status;
 use crate::solve::energy::{AGAINST_CHATTER, of_supplied};
+use crate::solve::condensed::FAR;
 use crate::solve::march::MAX_CUTS;
 use crate::solve::unsettled::{Place, Unsettled};
 
@@ -133,6 +134,10 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
             prepared.model.time.energy.share
         ),
         Unsettled::Loose { body, .. } => format!("the joints do not hold {}", prepared.system.free_bodies[*body].name),
+        Unsettled::Far { node } => format!(
+            "the node at {} would go farther than {FAR:e} times the size of the model",
+            place(prepared.model.mesh.points[*node])
+        ),
         Unsettled::Overflow(first) => {
             let at = match *first {
                 Place::JointPoint(i) => format!(", first at {}", places(prepared, &[i])),
@@ -151,6 +156,7 @@ fn restless(prepared: &Prepared, unsettled: &Unsettled) -> String {
 fn advice(unsettled: &Unsettled, otherwise: &str) -> String {
     match unsettled {
         Unsettled::Energy { .. } => AGAINST_CHATTER.into(),
+        Unsettled::Far { .. } => "check loads, stiffnesses, and whether supports hold every body".into(),
         Unsettled::Overflow(_) => "check loads, densities, stiffnesses and steps".into(),
         Unsettled::Residual { relative, .. } if *relative < LAST_DIGITS => {
             "a computer's 16 digits allow no less here: take a larger newton.tolerance".into()
