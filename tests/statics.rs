@@ -244,3 +244,103 @@ fn a_body_that_tips_is_named_although_a_joint_of_it_sticks() {
         assert_eq!(outcome.stderr.contains("do not hold \"body\", which tips"), tips, "{}", outcome.stderr);
     }
 }
+
+/// Ground and a body on it, 1 m wide and high each, of n elements along the foot; "pin" and "toe" are the body's upper left
+/// and lower right corners.
+fn block_on_ground(n: usize) -> Drawing {
+    let mut drawing = Drawing::default();
+    let step = 1. / n as f64;
+    let at = |row: usize, column: usize| row * (n + 1) + column;
+    for row in 0..=2 * n {
+        (0..=n).for_each(|column| {
+            drawing.node([column as f64 * step, row as f64 * step]);
+        });
+    }
+    for (row, column) in (0..2 * n).flat_map(|row| (0..n).map(move |column| (row, column))) {
+        let corners = [at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)];
+        drawing.cell(if row < n { "ground" } else { "body" }, Shape::Quad4, &corners);
+    }
+    for (group, row) in [("base", 0), ("foot", n)] {
+        (0..n).for_each(|column| drawing.cell(group, Shape::Line2, &[at(row, column), at(row, column + 1)]));
+    }
+    drawing.cell("pin", Shape::Point, &[at(2 * n, 0)]);
+    drawing.cell("toe", Shape::Point, &[at(2 * n, n)]);
+    drawing
+}
+
+/// The block of steel under gravity over a gap [m].
+fn block_over_gap(gap: f64, friction: f64) -> Value {
+    let material = json!({ "young": 2e11, "poisson": 0.3, "density": 7800 });
+    json!({
+        "analysis": "static", "gravity": 9.81, "geometry": { "mesh": "block.msh" },
+        "materials": { "ground": material, "body": material },
+        "interfaces": { "foot": { "body": "body", "thickness": "1 cm", "friction": friction, "gap": gap } },
+        "supports": { "base": ["x", "y"] },
+        "time": { "step": 1, "end": 1 },
+        "probes": ["toe"],
+    })
+}
+
+/// The block falls through the gap of 1 cm, however stiff the springs are that its elements give it: by steps of F / W, W
+/// as E / h, which 16 and more elements make shorter than the gap.
+#[test]
+fn a_block_falls_through_its_gap_on_any_mesh() {
+    for n in [8, 32] {
+        let bench = Bench::new(&format!("statics_falls_{n}"));
+        bench.write("block.msh", block_on_ground(n).text());
+        bench.write("block.json", block_over_gap(0.01, 0.3).to_string());
+        let outcome = run(&bench, &[]);
+        assert_eq!(outcome.code, Some(0), "{n} elements: {}", outcome.stderr);
+        let fallen = largest(&bench, "toe.uy");
+        println!("{n} elements: {:.3e} m beyond the gap", fallen - 0.01);
+        // elements and joints give way by the weight over their stiffness, 7.7e4 N/m2 / 2e11 Pa * 2 m
+        assert!((fallen - 0.01).abs() < 1e-5, "{n} elements: {fallen} m");
+    }
+}
+
+/// Held in x and y at one corner, the block can only turn about it: its toe comes down by the gap.
+#[test]
+fn a_block_that_is_pinned_at_a_corner_turns_until_its_toe_touches() {
+    for friction in [0., 0.3] {
+        let bench = Bench::new(&format!("statics_pin_{friction}"));
+        bench.write("block.msh", block_on_ground(8).text());
+        let mut case = block_over_gap(0.001, friction);
+        case["supports"]["pin"] = json!(["x", "y"]);
+        bench.write("block.json", case.to_string());
+        let outcome = run(&bench, &[]);
+        assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+        let down = largest(&bench, "toe.uy");
+        println!("friction {friction}: toe {:.3e} m beyond the gap", down - 0.001);
+        // as above, and the pin's node gives way by F / E (1 + ln of the block over an element)
+        assert!((down - 0.001).abs() < 1e-5, "friction {friction}: {down} m");
+    }
+}
+
+/// Numbers that no model means are not an answer: 1e25 N/m3 on 2e11 Pa.
+#[test]
+fn a_displacement_beyond_all_measure_is_refused_with_its_place() {
+    let bench = Bench::new("statics_far");
+    bench.write("block.msh", block_on_ground(2).text());
+    let mut case = block_over_gap(0., 0.3);
+    (case["supports"]["pin"], case["supports"]["toe"]) = (json!(["x", "y"]), json!(["x", "y"]));
+    let pull = json!({ "law": "table", "times": [0, 1], "values": [0, 1e25], "direction": [0, -1] });
+    case["loads"] = json!({ "ground": { "body_force": pull } });
+    bench.write("block.json", case.to_string());
+    let outcome = run(&bench, &[]);
+    assert_eq!(outcome.code, Some(3), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("would go farther than 1e6 times the size of the model"), "{}", outcome.stderr);
+}
+
+/// The block rests on the ground under gravity, and the case then lifts it: that state has inertia.
+#[test]
+fn a_body_that_the_case_lifts_at_the_start_touched_under_gravity() {
+    let bench = Bench::new("statics_lifted");
+    bench.write("block.msh", block_on_ground(2).text());
+    let mut case = block_over_gap(0., 0.3);
+    case["initial"] = json!({ "body": { "displacement": [0, 0.05] } });
+    case["time"] = json!({ "step": 1e-5, "end": 2e-5 });
+    bench.write("block.json", case.to_string());
+    let outcome = bench.run_line("run block.json --set analysis=dynamic");
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    assert!(!outcome.stderr.contains("touches nothing"), "{}", outcome.stderr);
+}

@@ -41,11 +41,8 @@ impl<'a> Previous<'a> {
     }
 }
 
-/// A body whose springs carry more than this share of what they carried a round before is not held: what else holds it
-/// is softer than a thousandth of the springs.
-const NOT_HELD: f64 = 0.999;
-
-/// A body that has not come to rest after so many rounds slides or falls.
+/// A body that has not come to rest after so many rounds slides or falls. While it falls freely each round takes it
+/// twice as far as the one before.
 const ROUNDS: usize = 50;
 
 /// Without inertia, times the size of the model that no displacement may exceed: it is round-off of a matrix that is nearly
@@ -131,7 +128,7 @@ impl Condensed {
     ) -> Result<Solution, Unsettled> {
         let solution = match self.springs.clone() {
             None => self.settle_once(b, &joints, previous, expected),
-            Some(springs) => self.settle_with_least_motion(&springs, b, &joints, previous),
+            Some(springs) => self.settle_with_least_motion(system, &springs, b, &joints, previous),
         }?;
         match solution.border.iter().position(|u| u.abs() > self.reach) {
             Some(i) => Err(Unsettled::Far { node: system.unknowns.node_of(system.unknowns.border + i) }),
@@ -139,10 +136,11 @@ impl Condensed {
         }
     }
 
-    /// K u + r(j) + W (u - u_0) = f with u_0 from before, then from the solution, until W (u - u_0) is nothing. Where
-    /// soft springs hold a body it falls by a factor each round, and u_0 goes to the limit of that series.
+    /// K u + r(j) + W (u - u_0) = f with u_0 from before, then from the solution, until W (u - u_0) is nothing. Between
+    /// rounds u_0 goes on beyond the solution, as [`Springs::further`] says.
     fn settle_with_least_motion(
         &mut self,
+        system: &System,
         springs: &Springs,
         b: &[f64],
         joints: &Joints,
@@ -150,7 +148,8 @@ impl Condensed {
     ) -> Result<Solution, Unsettled> {
         let tolerance = self.contact.options.tolerance;
         let (mut anchor, mut expected) = (previous.border.to_vec(), previous.jumps.to_vec());
-        let (mut iterations, mut carried_before) = (0, f64::INFINITY);
+        let (mut iterations, mut forces_before) = (0, None::<Vec<f64>>);
+        let mut further = springs.no_further();
         for round in 1.. {
             let mut pulled = b.to_vec();
             add(&mut pulled, 1., &springs.forces(&anchor));
@@ -163,18 +162,23 @@ impl Condensed {
             let moved: Vec<f64> = found.border.iter().zip(&anchor).map(|(u, u_0)| u - u_0).collect();
             let forces = springs.forces(&moved);
             let carried = norm(&forces);
-            let falls = carried / carried_before;
-            let at_round_off = falls > 0.5 && carried <= SWEEPS.max(tolerance) * found.largest_force;
+            let round_off = SWEEPS.max(tolerance) * found.largest_force;
+            let falls = forces_before.as_ref().is_none_or(|before| carried <= norm(before) / 2.);
+            let at_round_off = !falls && carried <= round_off;
             if carried <= CARRIED * tolerance * found.largest_force || at_round_off {
                 return Ok(Solution { iterations, displacement_test, ..found });
             }
-            if round > 1 && falls > NOT_HELD || round > ROUNDS {
+            if let Some(before) = forces_before {
+                further = springs.further(&further, &forces, &before, round_off);
+            }
+            let gone = springs.travel(previous.border, &found.border) > system.size && further.iter().any(|&f| f >= 1.);
+            if gone || round > ROUNDS {
                 let last = found.responses.iter().map(|r| r.status).collect();
                 return Err(Unsettled::Loose { body: springs.most_pulled(&forces), last });
             }
-            let further = if round > 1 && falls < 1. { falls / (1. - falls) } else { 0. };
-            anchor = found.border.iter().zip(&moved).map(|(u, moved)| u + further * moved).collect();
-            (expected, carried_before) = (found.jumps, carried);
+            anchor = found.border;
+            springs.add_to_bodies(&mut anchor, &further, &moved);
+            (expected, forces_before) = (found.jumps, Some(forces));
         }
         unreachable!("the rounds are counted")
     }

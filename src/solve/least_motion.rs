@@ -4,10 +4,9 @@
 //! solved again with u_0 = u until the springs carry nothing: then u is in equilibrium without them, and along motions
 //! that nothing resists it is where it was.
 
-use super::free_body::FreeBody;
 use super::system::System;
 use super::unknowns::Unknowns;
-use crate::sparse::vector::norm;
+use crate::sparse::vector::{dot, norm, ratio};
 use nalgebra::Matrix2;
 use std::sync::Arc;
 
@@ -16,12 +15,18 @@ use std::sync::Arc;
 /// steel rings is 1e-11 of the forces, 1e-13 over this of the displacements.
 pub const SHARE: f64 = 1e-6;
 
+/// A body whose springs carry more than this share of what they carried a round before falls freely: what else holds
+/// it, if anything, is softer than a thousandth of the springs.
+const FALLS_FREELY: f64 = 0.999;
+
 /// W.
 #[derive(Debug, Clone)]
 pub struct Springs {
     /// of every unknown at the border [N/m]
     stiffness: Arc<[f64]>,
-    bodies: Arc<[FreeBody]>,
+    /// number of the body that every unknown at the border moves, if any
+    body_of: Arc<[Option<usize>]>,
+    bodies: usize,
     border: usize,
 }
 
@@ -29,8 +34,10 @@ impl Springs {
     /// `closed`: the stiffness of every joint point, closed [Pa/m]. None where supports hold every body.
     pub fn new(system: &System, closed: &[Matrix2<f64>]) -> Option<Springs> {
         let Unknowns { border, count, sides, .. } = &*system.unknowns;
-        let mut is_loose = vec![false; count - border];
-        system.free_bodies.iter().flat_map(FreeBody::unknowns).for_each(|i| is_loose[i - border] = true);
+        let mut body_of = vec![None; count - border];
+        for (number, body) in system.free_bodies.iter().enumerate() {
+            body.unknowns().for_each(|i| body_of[i - border] = Some(number));
+        }
         let mut stiffness = vec![0.; count - border];
         // A body may be held through others, by the softest joint of all.
         let softest = closed.iter().map(|d| d[(1, 1)]).fold(f64::INFINITY, f64::min);
@@ -40,13 +47,13 @@ impl Springs {
                 if i == j {
                     sides
                         .of(i)
-                        .filter(|(row, _)| is_loose[row - border])
+                        .filter(|(row, _)| body_of[row - border].is_some())
                         .for_each(|(row, _)| stiffness[row - border] += value);
                 }
             });
         }
-        let (bodies, border) = (system.free_bodies.clone(), *border);
-        (!bodies.is_empty()).then(|| Springs { stiffness: stiffness.into(), bodies, border })
+        let (bodies, border) = (system.free_bodies.len(), *border);
+        (bodies > 0).then(|| Springs { stiffness: stiffness.into(), body_of: body_of.into(), bodies, border })
     }
 
     /// (unknown, stiffness [N/m]) of every spring.
@@ -61,8 +68,47 @@ impl Springs {
 
     /// The body that such forces pull most, by its number.
     pub fn most_pulled(&self, forces: &[f64]) -> usize {
-        let of_body = |body: &FreeBody| norm(&body.unknowns().map(|i| forces[i - self.border]).collect::<Vec<_>>());
-        let bodies = self.bodies.iter().map(of_body).enumerate();
-        bodies.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(number, _)| number)
+        let pulled = (0..self.bodies).map(|body| norm(&self.of_body(body, forces))).enumerate();
+        pulled.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(number, _)| number)
+    }
+
+    /// The largest displacement of a body along an axis, from one state of the border to another [m].
+    pub fn travel(&self, from: &[f64], to: &[f64]) -> f64 {
+        let of_bodies = from.iter().zip(to).zip(self.body_of.iter()).filter(|(_, body)| body.is_some());
+        of_bodies.map(|((from, to), _)| (to - from).abs()).fold(0., f64::max)
+    }
+
+    /// For each body, as [`Springs::further`]: u_0 goes to the solution.
+    pub fn no_further(&self) -> Vec<f64> {
+        vec![0.; self.bodies]
+    }
+
+    /// For each body how far beyond the solution u its u_0 goes, over u - u_0. Springs of the model make the forces W (u -
+    /// u_0) fall by a factor q each round, and q / (1 - q) is the limit of that series. Where the forces do not fall, the
+    /// body falls freely: u_0 goes twice as far as the round `before`, until joints stop the body and the forces turn round.
+    /// Forces of `round_off` say nothing.
+    pub fn further(&self, before: &[f64], forces: &[f64], forces_before: &[f64], round_off: f64) -> Vec<f64> {
+        let of_body = |body: usize| {
+            let [now, then] = [forces, forces_before].map(|forces| self.of_body(body, forces));
+            let q = ratio(dot(&now, &then), dot(&then, &then));
+            match norm(&now) > round_off && q > 0. {
+                true if q > FALLS_FREELY => f64::max(1., 2. * before[body]),
+                true => q / (1. - q),
+                false => 0.,
+            }
+        };
+        (0..self.bodies).map(of_body).collect()
+    }
+
+    /// u <- u + factor moved, each body with its own factor.
+    pub fn add_to_bodies(&self, u: &mut [f64], factors: &[f64], moved: &[f64]) {
+        for ((u, moved), body) in u.iter_mut().zip(moved).zip(self.body_of.iter()) {
+            body.iter().for_each(|&body| *u += factors[body] * moved);
+        }
+    }
+
+    /// The part of a vector at the border that belongs to a body.
+    fn of_body(&self, body: usize, x: &[f64]) -> Vec<f64> {
+        x.iter().zip(self.body_of.iter()).filter(|(_, of)| **of == Some(body)).map(|(x, _)| *x).collect()
     }
 }
