@@ -177,7 +177,7 @@ impl Condensed {
                 return Err(Unsettled::Loose { body: springs.most_pulled(&forces), last });
             }
             anchor = found.border;
-            springs.add_to_bodies(&mut anchor, &further, &moved);
+            springs.add_to_groups(&mut anchor, &further, &moved);
             (expected, forces_before) = (found.jumps, Some(forces));
         }
         unreachable!("the rounds are counted")
