@@ -281,20 +281,20 @@ fn block_over_gap(gap: f64, friction: f64) -> Value {
     })
 }
 
-/// The block falls through the gap of 1 cm, however stiff the springs are that its elements give it: by steps of F / W, W
-/// as E / h, which 16 and more elements make shorter than the gap.
+/// The block falls through the gap of 3 cm, however stiff the springs are that its elements give it: its first rounds go by
+/// F / W, W as E / h, which is more than the gap for 8 elements and less for 32.
 #[test]
 fn a_block_falls_through_its_gap_on_any_mesh() {
     for n in [8, 32] {
         let bench = Bench::new(&format!("statics_falls_{n}"));
         bench.write("block.msh", block_on_ground(n).text());
-        bench.write("block.json", block_over_gap(0.01, 0.3).to_string());
+        bench.write("block.json", block_over_gap(0.03, 0.3).to_string());
         let outcome = run(&bench, &[]);
         assert_eq!(outcome.code, Some(0), "{n} elements: {}", outcome.stderr);
         let fallen = largest(&bench, "toe.uy");
-        println!("{n} elements: {:.3e} m beyond the gap", fallen - 0.01);
+        println!("{n} elements: {:.3e} m beyond the gap", fallen - 0.03);
         // elements and joints give way by the weight over their stiffness, 7.7e4 N/m2 / 2e11 Pa * 2 m
-        assert!((fallen - 0.01).abs() < 1e-5, "{n} elements: {fallen} m");
+        assert!((fallen - 0.03).abs() < 1e-5, "{n} elements: {fallen} m");
     }
 }
 
