@@ -6,8 +6,8 @@ use crate::model::case::Analysis;
 use crate::model::split::Seam;
 use crate::number::{place, seconds};
 use crate::physics::joint::Status;
-use crate::solve::energy::{AGAINST_CHATTER, of_supplied};
 use crate::solve::condensed::FAR;
+use crate::solve::energy::{AGAINST_CHATTER, of_supplied};
 use crate::solve::march::MAX_CUTS;
 use crate::solve::unsettled::{Place, Unsettled};
 
