@@ -103,7 +103,7 @@ fn motion(json: &Value, mesh: &Mesh, rayleigh: Rayleigh) -> (Vec<Vec<[f64; 2]>>,
     let (mut rows, mut last) = (Vec::new(), None::<(State, Ledger)>);
     support::march(&model, &system, |state| {
         let ledger = match &last {
-            None => Ledger::start(&system, state, &State::at_rest(&system).q),
+            None => Ledger::start(&system, state, &State::at_rest(&system)),
             Some((old, ledger)) => ledger.after(&system, old, state, Forms::of(&system, old, state)),
         };
         rows.push([&state.q, &state.v].into_iter().flat_map(|x| system.unknowns.at_nodes(x)).collect());
@@ -420,7 +420,7 @@ fn the_ledgers_boundary_is_the_work_done_on_the_base() {
             work += before.map_or(0., |(f, u)| (f + now.0) / 2. * (now.1 - u));
             before = Some(now);
             let next = match &ledger {
-                None => Ledger::start(&system, state, &State::at_rest(&system).q),
+                None => Ledger::start(&system, state, &State::at_rest(&system)),
                 Some((old, ledger)) => ledger.after(&system, old, state, Forms::of(&system, old, state)),
             };
             last = next.now.boundary;

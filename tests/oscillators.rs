@@ -148,7 +148,7 @@ fn the_average_acceleration_balances_energy_in_every_step() {
     support::march(&model, &system, |state| states.push(state.clone()));
     let largest = states.iter().map(energy).fold(0., f64::max);
     let mut worst: f64 = 0.;
-    let mut ledger = Ledger::start(&system, &states[0], &State::at_rest(&system).q);
+    let mut ledger = Ledger::start(&system, &states[0], &State::at_rest(&system));
     for pair in states.windows(2) {
         let [old, new] = pair else { unreachable!() };
         let du: Vec<f64> = (0..new.q.len()).map(|i| new.q[i] - old.q[i]).collect();

@@ -343,4 +343,9 @@ fn a_body_that_the_case_lifts_at_the_start_touched_under_gravity() {
     let outcome = bench.run_line("run block.json --set analysis=dynamic");
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     assert!(!outcome.stderr.contains("touches nothing"), "{}", outcome.stderr);
+    // m g h of 7800 kg and 5 cm; the joints stored less than 1e-6 of it
+    let text = std::fs::read_to_string(bench.path("output/block/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&text).unwrap();
+    let supplied = summary["energy"]["supplied"].as_f64().unwrap();
+    assert!((supplied / (7800. * 9.81 * 0.05) - 1.).abs() < 1e-5, "{supplied} J/m");
 }

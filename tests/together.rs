@@ -37,7 +37,7 @@ const CASES: [(f64, f64); 8] =
     [(0.3, 1e5), (0.3, 1e200), (0.1, 1e5), (0.5, -2e5), (0.3, 2e5), (0.2, -1e5), (0.4, 3e5), (0.1, -3e5)];
 
 fn accepted(system: &System, start: State) -> Accepted {
-    let origin = State::at_rest(system).q;
+    let origin = State::at_rest(system);
     Accepted::start(system, start, &origin)
 }
 

@@ -67,8 +67,8 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// At t = 0, with `origin` the unknowns in equilibrium under gravity, which displacements are counted from.
-    pub fn start(system: &System, state: &State, origin: &[f64]) -> Ledger {
+    /// At t = 0, with `origin` the equilibrium under gravity, which displacements are counted from.
+    pub fn start(system: &System, state: &State, origin: &State) -> Ledger {
         let now = stored(system, state, Forms::of(system, state, state));
         let all = now.kinetic + now.strain + now.joint;
         let supplied = now.kinetic + energy_of_displacement(system, state, origin);
@@ -235,14 +235,18 @@ fn drained_by(c: &CsMat<f64>, old: &[f64], new: &[f64]) -> f64 {
     dot(&mean, &multiply(c, &mean))
 }
 
-/// u'K u / 2 of the displacement u since the `origin`, and what the joints store in the state [J]; 0 at the origin.
-fn energy_of_displacement(system: &System, state: &State, origin: &[f64]) -> f64 {
-    if state.q == origin {
+/// u'K u / 2 of the displacement u since the equilibrium `origin`, and what the joints gain beyond the work r_0'dj of the
+/// forces that they had there [J]. Weight, reactions and prestress K u_0 + r_0 cancel; a body that is lifted off has its
+/// weight's work in r_0.
+fn energy_of_displacement(system: &System, state: &State, origin: &State) -> f64 {
+    if state.q == origin.q {
         return 0.;
     }
-    let from_origin = State { q: growth(origin, &state.q), ..State::at_rest(system) };
+    let from_origin = State { q: growth(&origin.q, &state.q), ..State::at_rest(system) };
     let strain = stored(system, &from_origin, Forms::of(system, &from_origin, &from_origin)).strain;
-    strain + stored_in_joints(system, state)
+    let gained = stored_in_joints(system, state) - stored_in_joints(system, origin);
+    let work = dot(&joint_force(system, origin), &growth_of_jumps(system, origin, state));
+    strain + (gained - work).max(0.)
 }
 
 fn stored_in_joints(system: &System, state: &State) -> f64 {

@@ -27,8 +27,8 @@ pub struct Accepted {
 }
 
 impl Accepted {
-    /// The state at t = 0, with `origin` the unknowns in equilibrium under gravity.
-    pub fn start(system: &System, state: State, origin: &[f64]) -> Accepted {
+    /// The state at t = 0, with `origin` the equilibrium under gravity.
+    pub fn start(system: &System, state: State, origin: &State) -> Accepted {
         Accepted { ledger: Ledger::start(system, &state, origin), step: Step::start(state), excessive: 0 }
     }
 

@@ -176,7 +176,7 @@ fn solve(request: &Request, loaded: Loaded, started: Instant) -> Result<String> 
     file::create_folder(&path)?;
     let folder = Folder::prepare(&path, &case.name())?;
     replaced.iter().for_each(|sentence| screen.say(sentence));
-    let start = Accepted::start(&prepared.system, state, &origin.q);
+    let start = Accepted::start(&prepared.system, state, &origin);
     let march_and_write = || {
         let grid = Grid::new(&prepared.model, &prepared.system);
         let mut recorder = Recorder::start(&prepared, &folder, &start, origin, Some(grid.into()))?;

@@ -63,7 +63,7 @@ fn march_all<'a>(
     let began = Instant::now();
     let (mut running, mut states) = (Vec::new(), Vec::new());
     for (run, (state, origin)) in ready.iter().zip(starts) {
-        let start = Accepted::start(&run.prepared.system, state, &origin.q);
+        let start = Accepted::start(&run.prepared.system, state, &origin);
         let recorder = Recorder::start(&run.prepared, &run.folder, &start, origin, grid.cloned())?;
         running.push(Running { run, march: march.sharing_factor(&run.prepared.system), recorder, began });
         states.push(start);
