@@ -61,7 +61,7 @@ def page(book):
         names = list(shares)[::-1]
         axes.barh(names, [max(shares[name], 1e-7) for name in names])
         axes.axvline(TOLERATED, color="k", linewidth=0.8)
-        axes.set(xscale="log", xlabel="energy made by joints / energy supplied (line: the most in a run that is done)")
+        axes.set(xscale="log", xlabel="energy made by joints / energy supplied (line: limit)")
         axes.tick_params(axis="y", labelsize=7)
 
     return Page(
