@@ -40,6 +40,6 @@ def page(book):
                   "0.025, -0.005, then |k x| < F: rest from 5 pi / 10 = 1.5708 s on.",
         rows=rows, code=["src/physics/joint.rs", "src/solve/contact.rs"], plot=plot,
         notes="The joint's elastic stiffness in shear, 1e8 Pa/m, gives way by 1e-8 m before it slips. The step must resolve the block on "
-              "this stiffness (1.6 kHz): at dt = 1 ms the stopped block chatters about and creeps 1.3 mm in the second after its stop; HHT with alpha = "
+              "this stiffness (1.6 kHz): at dt = 1 ms the stopped block chatters about and creeps 1.3 mm in the 1.4 s after its stop; HHT with alpha = "
               "-0.1 stops that.",
     )

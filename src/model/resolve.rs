@@ -143,7 +143,7 @@ impl Model {
         Model::opened(case, mesh, bonded, &Openings::default())
     }
 
-    /// Likewise, with what is known of the mesh's `openings`.
+    /// [`Model::new`] with what is known of the mesh's `openings`.
     pub fn opened(case: &Case, mesh: &Mesh, bonded: bool, openings: &Openings) -> Result<Model> {
         let mut warnings = Vec::new();
         let (materials, mut material_of) = materials(case, mesh, &mut warnings)?;
@@ -196,15 +196,18 @@ impl Model {
         refuse_overflow(case, &model)?;
         match case.analysis {
             Analysis::Static => Ok(model.held()),
-            Analysis::Dynamic => {
-                let free_fields = free_fields(case, &model)?;
-                let mut warnings = model.warnings.clone();
-                warnings.extend(free_field::swept(&free_fields, &model.loads));
-                warnings.extend(free_field::uneven(&free_fields, &model));
-                warnings.extend(absorbing::loaded(case, &model));
-                Ok(Model { free_fields, warnings, ..model })
-            }
+            Analysis::Dynamic => model.with_free_fields(case),
         }
+    }
+
+    /// The model with the ground beyond its free-field sides.
+    fn with_free_fields(self, case: &Case) -> Result<Model> {
+        let free_fields = free_fields(case, &self)?;
+        let mut warnings = self.warnings.clone();
+        warnings.extend(free_field::swept(&free_fields, &self.loads));
+        warnings.extend(free_field::uneven(&free_fields, &self));
+        warnings.extend(absorbing::loaded(case, &self));
+        Ok(Model { free_fields, warnings, ..self })
     }
 
     /// Whether nothing but round-off is left in the energy ledger: no numerical damping, no imbalance at the start.

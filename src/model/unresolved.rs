@@ -8,7 +8,7 @@ use crate::number::short_to;
 use std::f64::consts::TAU;
 
 /// Steps in a period of the joints below which a stopped block creeps. Measured on the Coulomb oscillator of the
-/// verification book (period 0.63 ms): 1.3 mm in the second after its stop at 1 ms, 1e-5 mm at 0.2 ms.
+/// verification book (period 0.63 ms): 1.3 mm in the 1.4 s after its stop at 1 ms, 1e-5 mm at 0.2 ms.
 const STEPS_IN_A_PERIOD: f64 = 3.;
 
 /// A sentence for each body that vibrates on its joints faster than the time step resolves, where nothing damps.

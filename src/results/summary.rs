@@ -114,7 +114,7 @@ pub struct EnergyRecord {
     pub max_relative_error: f64,
     /// largest stored energy [J/m]
     pub peak: f64,
-    /// energy of the initial motion plus work of loads and free field, the largest so far [J/m]
+    /// energy of the initial motion plus work of the free field and of the loads that come and go, the largest so far [J/m]
     pub supplied: f64,
     /// energy that joints made by opening, closing and first slip within steps [J/m]
     pub made: f64,

@@ -137,7 +137,7 @@ impl Condensed {
     }
 
     /// K u + r(j) + W (u - u_0) = f with u_0 from before, then from the solution, until W (u - u_0) is nothing. Between
-    /// rounds u_0 goes on beyond the solution, as [`Springs::further`] says.
+    /// rounds u_0 is moved beyond the solution, as [`Springs::further`] says.
     fn settle_with_least_motion(
         &mut self,
         system: &System,

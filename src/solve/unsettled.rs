@@ -8,7 +8,7 @@ pub enum Unsettled {
     Statuses { changing: Vec<usize>, last: Vec<Status> },
     /// the statuses stand, but the residual does not fall: what it stays at, and the joint point where it is largest
     Residual { relative: f64, largest: Option<usize>, last: Vec<Status> },
-    /// a body, by its number, goes on moving whatever the joints do, and how they stood last
+    /// a body, by its number, keeps moving whatever the joints do, and how they stood last
     Loose { body: usize, last: Vec<Status> },
     /// a node goes farther than any model that is held
     Far { node: usize },
